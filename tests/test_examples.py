@@ -1,0 +1,200 @@
+"""The examples: the lesson's checkpoints, and every figure that an example's text gives."""
+
+import math
+import re
+import sys
+from itertools import pairwise
+from pathlib import Path
+
+import pytest
+
+from airtrack import Scene, step
+from examples import EXAMPLES, OWN_SCENE
+from films import film
+
+Capture = pytest.CaptureFixture[str]
+
+
+def details(line: str) -> tuple[float, float]:
+    """x and v in the details behind a line."""
+    x_text, v_text = re.findall(r"[xv] = +(-?[0-9.]+)", line)
+    return float(x_text), float(v_text)
+
+
+def states(number: int, frames: int) -> list[tuple[float, float, float | None]]:
+    """(x_m, v_mps, mark_m) after each frame of an example, at its nominal dt."""
+    scene = Scene(**EXAMPLES[number].settings)
+    state: tuple[float, float, float | None] = (scene.x_m, scene.v_mps, None)
+    found = []
+    for _ in range(frames):
+        state = step(scene, state[0], state[1], 1 / scene.fps_target)
+        found.append(state)
+    return found
+
+
+def turns_m(number: int, frames: int) -> list[float]:
+    """The highest position of each flight of an example, from left to right and back."""
+    xs = [EXAMPLES[number].settings["x_m"]] + [x_m for x_m, _, _ in states(number, frames)]
+    return [b for (a, b), (_, c) in pairwise(pairwise(xs)) if a <= b > c]
+
+
+# The lesson's film, frame for frame and column for column.
+
+def test_the_one_pager_has_neither_header_nor_pause_and_shows_details(capsys: Capture) -> None:
+    for words in ((), ("0",)):
+        shown = film(capsys, *words, "--frames", "600")
+        assert shown.intro == ""
+        first = shown.lines[0]
+        assert len(first[:126]) == 126
+        assert [i for i, c in enumerate(first[:126]) if c == "|"] == [4, 122]
+        assert first.index("*") == 79
+        assert details(first)[0] == 11.25
+        assert first[126:] == "x =  11.25, v = 16.97, FPS =  67"
+        assert details(shown.lines[599]) == (13.89, -4.51)
+
+
+def test_example_10_at_frames_13_and_14(capsys: Capture) -> None:
+    _, lines, _ = film(capsys, "10", "d", "--frames", "14")
+    thirteen, fourteen = lines[12:14]
+    assert (thirteen.index("*"), details(thirteen)[0]) == (17, 0.31)
+    assert "0" not in thirteen[:135]
+    assert (fourteen.index("0"), fourteen.index("*")) == (2, 25)
+    assert details(fourteen) == (0.45, 2.49)
+
+
+@pytest.mark.parametrize(("number", "frames", "x_m"), [(1, 251, 0.25), (5, 236, 2.20)])
+def test_examples_1_and_5_come_to_rest(
+        number: int, frames: int, x_m: float, capsys: Capture) -> None:
+    _, lines, ending = film(capsys, str(number), "d")
+    assert len(lines) == frames
+    assert details(lines[-1])[0] == x_m
+    assert ending == f"Stopped after {frames} frames: the car is at rest against a wall."
+
+
+def test_example_3_sinks_to_minus_35_cm_in_600_frames(capsys: Capture) -> None:
+    _, lines, ending = film(capsys, "3", "d", "--frames", "600")
+    assert details(lines[-1])[0] == -0.35
+    assert ending == "Stopped after 600 frames: that is the frame limit."
+
+
+@pytest.mark.parametrize("number", sorted(EXAMPLES))
+def test_every_line_is_as_wide_as_the_scene_says(number: int, capsys: Capture) -> None:
+    width_px = Scene(**EXAMPLES[number].settings).width_px
+    _, lines, _ = film(capsys, str(number), "--frames", "50")
+    assert {len(line.split("x =")[0]) for line in lines} == {width_px}
+
+
+def test_the_pauses_are_5_s_for_example_1_and_4_s_for_3_and_3_s_for_the_others() -> None:
+    pauses_s = {number: example.pause_s for number, example in EXAMPLES.items() if number}
+    assert (pauses_s.pop(1), pauses_s.pop(3), set(pauses_s.values())) == (5, 4, {3})
+
+
+def test_examples_py_imports_nothing_from_airtrack_py() -> None:
+    assert "airtrack" not in re.findall(
+        r"^\s*(?:import|from) +(\w+)", Path(sys.modules["examples"].__file__ or "").read_text(),
+        re.MULTILINE)
+
+
+# What the texts say.
+
+def says(number: int, *phrases: str) -> None:
+    """The example's text still says what the test below it checks."""
+    for phrase in phrases:
+        assert phrase in EXAMPLES[number].look_for
+
+
+def test_1_keeps_70_percent_of_its_speed_and_stops_after_251_frames() -> None:
+    says(1, "70 %", "251 frames")
+    assert EXAMPLES[1].settings["CR"] == 0.7
+
+
+def test_2_is_drawn_up_to_4_columns_beyond_the_walls_and_never_stops(capsys: Capture) -> None:
+    says(2, "up to 4 columns", "never stops")
+    _, lines, ending = film(capsys, "2")
+    columns = [line.index("*") for line in lines]
+    assert max(14 - min(columns), max(columns) - 121) == 4
+    assert ending == "Stopped after 50000 frames: that is the frame limit."
+    assert {abs(v_mps) for _, v_mps, _ in states(2, 1000)} == {2.7}
+
+
+def test_3_is_caught_in_frame_46_and_sinks_a_millimetre_a_frame(capsys: Capture) -> None:
+    says(3, "In frame 46", "60 %", "1 mm a frame", "after frame 272")
+    xs = [x_m for x_m, _, _ in states(3, 600)]
+    assert [x_m < 0.25 for x_m in xs].index(True) + 1 == 46
+    assert all(x_m < 0.25 for x_m in xs[45:])
+    assert (xs[99] - xs[599]) / 500 == pytest.approx(1e-3, rel=0.1)
+    _, lines, _ = film(capsys, "3", "--frames", "300")
+    assert ["*" in line for line in lines] == [True] * 272 + [False] * 28
+
+
+def test_4_collides_in_its_first_two_frames_and_leaves_at_6_4_mps() -> None:
+    says(4, "10 m/s", "first two frames", "6.4 m/s")
+    first = states(4, 3)
+    assert [mark_m is not None for _, _, mark_m in first] == [True, True, False]
+    assert first[1][1] == pytest.approx(6.4, abs=0.05)
+
+
+def test_5_is_put_back_to_70_percent_of_the_overlap_and_rests_after_236_frames() -> None:
+    says(5, "70 % of that distance", "236 frames")
+    for x_m, _, mark_m in states(5, 236):
+        if mark_m is not None:
+            assert 2.2 - x_m == pytest.approx(0.7 * (mark_m - 2.2))
+
+
+def test_6_is_5_drawn_smaller(capsys: Capture) -> None:
+    says(6, "236 frames again")
+    five, six = film(capsys, "5", "d"), film(capsys, "6", "d")
+    assert [line[135:] for line in five.lines] == [line[135:] for line in six.lines]
+    assert five.ending == six.ending
+    assert max(line.rindex("*") for line in six.lines) == 66
+
+
+def test_7_turns_at_its_start_mark_or_one_column_short_of_it() -> None:
+    says(7, "or turns at 1.99 m, one column short")
+    turns = turns_m(7, 60 * 240)
+    assert len(turns) > 20
+    assert {round(turn * 55) for turn in turns} == {109, 110}
+    assert {round(turn, 2) for turn in turns} == {1.99, 2.0}
+
+
+def test_8_turns_7_columns_short_of_its_start_mark_every_other_time() -> None:
+    says(8, "0.26 m", "1.88 m, 7 columns short", "by turns")
+    turns = turns_m(8, 600)
+    assert len(turns) > 20
+    assert {round(turn, 2) for turn in turns[::2]} == {1.88}
+    assert {round(turn, 2) for turn in turns[1::2]} == {2.0}
+    assert round(2.0 * 55) - round(1.88 * 55) == 7
+    assert max(abs(v_mps) * 0.1 for _, v_mps, _ in states(8, 600)) == pytest.approx(0.26)
+
+
+def test_10_is_drawn_on_its_start_mark_at_every_turn() -> None:
+    says(10, "every time")
+    turns = turns_m(10, 6000)
+    assert len(turns) > 200
+    assert {round(turn * 55) for turn in turns} == {110}
+
+
+def test_11_comes_back_too_however_the_time_is_cut_into_frames() -> None:
+    says(11, "does not depend")
+    scene = Scene(**EXAMPLES[11].settings)
+    x_m, v_mps, t_s, fall_s = 2.0, 0.0, 0.0, math.sqrt(2 * 1.75 / 2)
+    for frame in range(2000):
+        dt_s = 0.1 + 0.05 * math.sin(frame * frame)
+        x_m, v_mps, _ = step(scene, x_m, v_mps, dt_s)
+        t_s += dt_s
+        assert x_m == pytest.approx(2 - math.remainder(t_s, 2 * fall_s) ** 2, abs=1e-9)
+
+
+def test_12_rests_from_its_Zeno_point_on() -> None:
+    says(12, "80 %", "t = 11.91 s")
+    fall_s = math.sqrt(2 * 1.75 / 2)
+    assert fall_s + 2 * fall_s * 0.8 / (1 - 0.8) == pytest.approx(11.91, abs=0.005)
+    scene = Scene(**EXAMPLES[12].settings)
+    assert step(scene, 2.0, 0.0, 11.90)[1] != 0
+    assert step(scene, 2.0, 0.0, 11.92)[:2] == (0.25, 0.0)
+
+
+def test_the_own_scene_is_a_car_at_rest_in_mid_track() -> None:
+    assert OWN_SCENE.settings == {}
+    assert (Scene().v_mps, Scene().a_mps2) == (0, 0)
+    assert Scene().left_edge_m < Scene().x_m < Scene().right_edge_m

@@ -1,0 +1,228 @@
+"""The exact engine (motion=exact, correction=replay) against an independent reference."""
+
+import math
+import random
+from decimal import Decimal
+
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+import airtrack
+from airtrack import Scene, step
+from reference import positions
+
+
+def exact(**settings: float) -> Scene:
+    return Scene(motion="exact", correction="replay", **settings)  # type: ignore[arg-type]
+
+
+def random_scene(rng: random.Random, fps: float | None = None) -> Scene:
+    left_m = rng.uniform(-5, 5)
+    right_m = left_m + 10 ** rng.uniform(-1, 1)
+    return exact(
+        left_edge_m=left_m, right_edge_m=right_m,
+        x_m=rng.choice([left_m, right_m, rng.uniform(left_m, right_m), (left_m + right_m) / 2]),
+        v_mps=rng.choice([0.0, rng.uniform(-3, 3), rng.uniform(-30, 30)]),
+        a_mps2=rng.choice([0.0, rng.uniform(-2, 2), rng.uniform(-30, 30)]),
+        CR=rng.choice([0.0, 1.0, 0.5, 0.8, rng.uniform(0, 0.95), rng.uniform(0.5, 0.95)]),
+        fps_target=fps or 10 ** rng.uniform(-0.3, 3))
+
+
+def largest_error_m(scene: Scene, frame_s: float, frames: int, samples: int = 8) -> float:
+    """The largest distance between step's car and the reference's."""
+    every = max(1, frames // samples)
+    x_m, v_mps, seen = scene.x_m, scene.v_mps, []
+    for frame in range(1, frames + 1):
+        x_m, v_mps, _ = step(scene, x_m, v_mps, frame_s)
+        if frame % every == 0:
+            seen.append((frame, x_m))
+    times_s = [frame * Decimal(frame_s) for frame, _ in seen]
+    pairs = zip(seen, positions(scene, times_s), strict=True)
+    return max(abs(float(Decimal(x_m) - true_m)) for (_, x_m), true_m in pairs)
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_agrees_with_the_decimal_reference_in_random_scenes_at_random_frame_rates(
+        seed: int) -> None:
+    rng = random.Random(seed)
+    for _ in range(300):
+        scene = random_scene(rng)
+        frames = max(2, min(200, round(3 * scene.fps_target)))
+        error_m = largest_error_m(scene, 1 / scene.fps_target, frames)
+        assert error_m < 1e-9, scene
+
+
+@pytest.mark.parametrize("fps", [0.5, 1, 10, 60, 240, 1000])
+def test_agrees_with_the_decimal_reference_for_several_seconds_at_every_frame_rate(
+        fps: float) -> None:
+    rng = random.Random(f"rate {fps}")
+    for _ in range(20):
+        scene = random_scene(rng, fps)
+        assert largest_error_m(scene, 1 / fps, round(6 * fps)) < 1e-9, scene
+
+
+def test_one_frame_of_20_s_ends_where_200_frames_of_a_tenth_do() -> None:
+    rng = random.Random("long frames")
+    for _ in range(300):
+        scene = random_scene(rng)
+        assert largest_error_m(scene, 20.0, 1) < 1e-9, scene
+
+
+@st.composite
+def any_scene(draw: st.DrawFn) -> Scene:
+    """Any scene there can be, but for those with thousands of wall-to-wall flights a frame."""
+    left_m = draw(st.floats(-1000, 999.98))
+    width_m = draw(st.one_of(st.floats(0.01, 5), st.floats(0.01, 2000)))
+    right_m = min(left_m + width_m, 1000.0)
+    assume(right_m - left_m >= 0.01)
+    inside = st.one_of(st.floats(left_m, right_m), st.sampled_from([left_m, right_m]))
+    tiny = st.sampled_from([0.0, 1e-300, -1e-300, 5e-324, 1e-12, -1e-12])
+    anything = st.one_of(tiny, st.floats(-10, 10), st.floats(-1000, 1000))
+    near_elastic = st.sampled_from([0.0, 1.0, 1 - 1e-12, math.nextafter(1, 0), 5e-324])
+    scene = exact(x_m=draw(inside), v_mps=draw(anything), a_mps2=draw(anything),
+                  left_edge_m=left_m, right_edge_m=right_m,
+                  CR=draw(st.one_of(near_elastic, st.floats(0, 1))),
+                  fps_target=draw(st.floats(0.5, 1000)))
+    fastest_mps = math.hypot(scene.v_mps, math.sqrt(2 * abs(scene.a_mps2) * (right_m - left_m)))
+    assume(fastest_mps / (right_m - left_m) / scene.fps_target < 5000)
+    return scene
+
+
+def energy(scene: Scene, x_m: float, v_mps: float) -> float:
+    """Per kilogram, from the wall to which the car is pulled: never negative on the track."""
+    low_m = scene.right_edge_m if scene.a_mps2 > 0 else scene.left_edge_m
+    return v_mps * v_mps / 2 + abs(scene.a_mps2) * abs(x_m - low_m)
+
+
+@given(any_scene())
+@settings(max_examples=1500, deadline=None)
+def test_stays_finite_and_on_the_track_and_gains_no_energy_in_any_scene(scene: Scene) -> None:
+    x_m, v_mps = scene.x_m, scene.v_mps
+    before = energy(scene, x_m, v_mps)
+    scale = before + abs(scene.a_mps2) * (abs(scene.left_edge_m) + abs(scene.right_edge_m))
+    for _ in range(5):
+        x_m, v_mps, mark_m = step(scene, x_m, v_mps, 1 / scene.fps_target)
+        assert math.isfinite(x_m)
+        assert math.isfinite(v_mps)
+        assert mark_m is None or math.isfinite(mark_m)
+        assert scene.left_edge_m <= x_m <= scene.right_edge_m
+        after = energy(scene, x_m, v_mps)
+        assert after <= before + 1e-10 * scale
+        before = after
+
+
+def test_several_walls_in_one_frame() -> None:
+    # 40 m/s on a 2 m track for 0.1 s: 4 m, over and back again, to the same place and velocity.
+    scene = exact(left_edge_m=0, right_edge_m=2, x_m=1.5, v_mps=40, CR=1)
+    x_m, v_mps, mark_m = step(scene, 1.5, 40.0, 0.1)
+    assert x_m == pytest.approx(1.5, abs=1e-12)
+    assert (v_mps, mark_m) == (40.0, 5.5)
+
+
+def test_the_mark_is_where_the_move_alone_would_have_put_the_car() -> None:
+    scene = exact(x_m=0.3, v_mps=-1, a_mps2=-2)
+    assert step(scene, 0.3, -1.0, 0.1)[2] == 0.3 - 0.1 - 0.01
+    assert step(scene, 1.0, -1.0, 0.1)[2] is None
+
+
+def test_a_car_that_met_a_wall_and_is_back_within_the_frame_is_marked() -> None:
+    # Free flight would take it to -0.05 m and back to x = 1.2 m; the wall at 0 turns it earlier.
+    scene = exact(left_edge_m=0, right_edge_m=5, x_m=0.2, v_mps=-1, a_mps2=2, CR=0.5)
+    x_m, _, mark_m = step(scene, 0.2, -1.0, 1.618)
+    free_m = 0.2 - 1.618 + 1.618**2
+    assert mark_m == pytest.approx(free_m)
+    assert x_m == pytest.approx(float(next(positions(scene, [Decimal("1.618")]))), abs=1e-12)
+    assert abs(x_m - free_m) > 0.1
+
+
+def test_a_turn_in_mid_track_is_no_collision() -> None:
+    scene = exact(left_edge_m=0, right_edge_m=5, x_m=2, v_mps=-1, a_mps2=2)
+    assert step(scene, 2.0, -1.0, 1.0) == (2.0, 1.0, None)
+
+
+def test_CR_0_ends_a_bounce_at_rest_on_the_wall() -> None:
+    scene = exact(x_m=0.5, v_mps=-1, a_mps2=-1, CR=0)
+    assert step(scene, 0.5, -1.0, 1.0)[:2] == (0.25, 0.0)
+
+
+def test_CR_0_without_acceleration_stays_at_the_wall() -> None:
+    scene = exact(x_m=0.5, v_mps=-1, CR=0)
+    assert step(scene, 0.5, -1.0, 1.0)[:2] == (0.25, 0.0)
+
+
+def test_a_car_leaning_on_a_wall_stays_there() -> None:
+    scene = exact(x_m=0.25, a_mps2=-3)
+    for frame_s in (0.001, 0.1, 20.0):
+        assert step(scene, 0.25, 0.0, frame_s)[:2] == (0.25, 0.0)
+
+
+def test_a_car_at_a_wall_that_is_pulled_off_it_leaves() -> None:
+    scene = exact(x_m=0.25, a_mps2=2)
+    assert step(scene, 0.25, 0.0, 0.5) == (0.5, 1.0, None)
+
+
+@pytest.mark.parametrize("fps", [0.5, 1, 3.3, 10, 30, 97, 240, 999, 1000])
+def test_a_graze_is_a_miss_and_20_s_of_them_keep_time(fps: float) -> None:
+    # Elastic, from rest on the right wall: it comes back to that wall with no speed, every time.
+    scene = exact(x_m=2.2, a_mps2=-2, CR=1, fps_target=fps)
+    fall_s = math.sqrt(2 * 1.95 / 2)
+    x_m, v_mps = 2.2, 0.0
+    for frame in range(1, round(20 * fps) + 1):
+        x_m, v_mps, _ = step(scene, x_m, v_mps, 1 / fps)
+        since_top_s = math.remainder(frame / fps, 2 * fall_s)
+        assert x_m == pytest.approx(2.2 - since_top_s**2, abs=1e-9)
+
+
+def test_a_hop_of_1e_300_metres_per_second_is_rest_whatever_CR() -> None:
+    for CR in (0.0, 0.5, 1 - 1e-12, 1.0):
+        scene = exact(x_m=0.25, v_mps=1e-300, a_mps2=-2, CR=CR)
+        assert step(scene, 0.25, 1e-300, 2.0)[:2] == (0.25, 0.0)
+
+
+@pytest.mark.parametrize("CR", [0.5, 0.9, 0.99, 1 - 1e-6, 1 - 1e-12])
+def test_the_Zeno_point_comes_when_the_geometric_series_says(CR: float) -> None:
+    # Hops of h, CR h, CR^2 h ... from the wall at v: together h/(1 - CR), with h = 2 v/a.
+    v_mps, a_mps2 = 1e-3 * (1 - CR), -2.0
+    zeno_s = 2 * v_mps / 2 / (1 - CR)
+    scene = exact(x_m=0.25, v_mps=v_mps, a_mps2=a_mps2, CR=CR)
+    _, before_mps, _ = step(scene, 0.25, v_mps, zeno_s * (1 - 1e-3))
+    after = step(scene, 0.25, v_mps, zeno_s * (1 + 1e-3))
+    assert before_mps != 0
+    assert after[:2] == (0.25, 0.0)
+
+
+def test_elastic_hops_come_back_after_any_number_of_them() -> None:
+    scene = exact(x_m=0.25, v_mps=1e-3, a_mps2=-2, CR=1)  # a hop: 1 ms, up to 0.25 um
+    for hops in (1, 1000, 20_000):
+        x_m, v_mps, _ = step(scene, 0.25, 1e-3, (hops + 0.5) * 1e-3)
+        assert x_m == pytest.approx(0.25 + 1e-6 / 4, abs=1e-12)
+        assert v_mps == pytest.approx(0, abs=1e-11)
+
+
+def test_almost_elastic_hops_are_almost_elastic() -> None:
+    scene = exact(x_m=0.25, v_mps=1e-3, a_mps2=-2, CR=1 - 1e-12)
+    x_m, v_mps, _ = step(scene, 0.25, 1e-3, 1000.5e-3)
+    assert x_m == pytest.approx(0.25 + 1e-6 / 4, abs=1e-12)
+    assert v_mps == pytest.approx(0, abs=1e-9)
+
+
+@pytest.mark.parametrize("CR", [0.3, 0.999, 1 - 1e-9, 1.0])
+@pytest.mark.parametrize("v_mps", [1e-9, 1e-6, 1e-3])
+def test_the_cost_of_a_frame_does_not_grow_with_its_hops(
+        CR: float, v_mps: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    calls, arrival = [], airtrack.arrival
+
+    def counted(*args: float) -> tuple[float, float]:
+        calls.append(args)
+        return arrival(*args)
+
+    monkeypatch.setattr(airtrack, "arrival", counted)
+    scene = exact(x_m=0.25, v_mps=v_mps, a_mps2=-2, CR=CR)
+    step(scene, 0.25, v_mps, 2.0)  # with v = 1 nm/s and CR = 1, two thousand million hops
+    assert 0 < len(calls) <= 20
+
+
+def test_a_start_beyond_a_wall_is_taken_for_one_at_it() -> None:
+    scene = exact(a_mps2=-1)
+    assert step(scene, 0.2, -1.0, 0.1) == (*step(scene, 0.25, -1.0, 0.1)[:2], 0.2 - 0.1 - 0.005)

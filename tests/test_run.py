@@ -1,0 +1,226 @@
+"""The main loop, on a clock that the test sets: pacing, stalls, observed dt, the ends of a run."""
+
+import itertools
+import re
+from collections.abc import Callable
+from types import SimpleNamespace
+
+import pytest
+
+import airtrack
+import examples
+from airtrack import Scene, main, step
+
+Capture = pytest.CaptureFixture[str]
+
+
+class Clock:
+    """A clock that goes on only while somebody sleeps, or when a test says so."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        self.now_s = 1000.0
+        self.frames_s: list[float] = []  # when each frame was drawn
+        self.when_drawn: Callable[[int], float] = lambda frame: 0.0  # how long that takes
+        monkeypatch.setattr(airtrack, "clock_s", lambda: self.now_s)
+        monkeypatch.setattr(examples, "time", SimpleNamespace(
+            perf_counter=lambda: self.now_s, sleep=self.sleep))
+        render_track = airtrack.render_track
+
+        def render(*args: object) -> str:
+            self.frames_s.append(self.now_s)
+            self.now_s += self.when_drawn(len(self.frames_s))
+            return render_track(*args)  # type: ignore[arg-type]
+
+        monkeypatch.setattr(airtrack, "render_track", render)
+
+    def sleep(self, seconds: float) -> None:
+        assert seconds >= 0
+        self.now_s += seconds + 60e-6  # a little too long, as real ones are
+
+    def lengths_s(self) -> list[float]:
+        return [b - a for a, b in zip(self.frames_s, self.frames_s[1:], strict=False)]
+
+
+@pytest.fixture
+def clock(monkeypatch: pytest.MonkeyPatch) -> Clock:
+    monkeypatch.delenv("DISPLAY", raising=False)
+    monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
+    return Clock(monkeypatch)
+
+
+def positions_m(capsys: Capture) -> list[float]:
+    """The x of every frame in what was printed."""
+    return [float(x) for x in re.findall(r"x = +(-?[0-9.]+), v", capsys.readouterr().out)]
+
+
+@pytest.mark.parametrize("fps", [300, 240, 10])
+def test_work_and_oversleeping_do_not_slow_the_film(fps: int, clock: Clock) -> None:
+    clock.when_drawn = lambda frame: 0.3 / fps
+    assert main(["99", f"fps_target={fps}", "--frames", "1001"]) == 0
+    took_s = clock.frames_s[-1] - clock.frames_s[0]
+    assert 1000 / took_s == pytest.approx(fps, rel=0.002)
+
+
+def test_a_missed_deadline_is_not_made_up_by_a_burst(clock: Clock) -> None:
+    clock.when_drawn = lambda frame: 0.5 if frame == 10 else 0.001
+    assert main(["99", "fps_target=100", "--frames", "40"]) == 0
+    lengths_s = clock.lengths_s()
+    assert lengths_s[9] == pytest.approx(0.5, rel=0.01)
+    assert lengths_s[10:] == pytest.approx([0.01] * 29, rel=0.02)
+
+
+def test_the_pause_before_the_first_frame(clock: Clock) -> None:
+    for number, pause_s in (("0", 0), ("1", 5), ("3", 4), ("5", 3)):
+        began_s, clock.frames_s = clock.now_s, []
+        assert main([number, "--frames", "1"]) == 0
+        assert clock.frames_s[0] - began_s == pytest.approx(pause_s, abs=0.01)
+
+
+@pytest.mark.parametrize("observed", [True, False])
+def test_after_a_stall_the_car_holds_still_for_one_frame(
+        observed: bool, clock: Clock, capsys: Capture) -> None:
+    clock.when_drawn = lambda frame: 2.0 if frame == 10 else 0.0
+    main(["99", "d", "v_mps=0.3", "fps_target=10", "--frames", "15", f"use_observed_dt={observed}"])
+    xs = positions_m(capsys)
+    moved_m = [round(b - a, 2) for a, b in itertools.pairwise(xs)]
+    assert moved_m == [0.03] * 9 + [0.0] + [0.03] * 4
+
+
+def test_what_a_stall_is(clock: Clock, capsys: Capture) -> None:
+    # Longer than 0.15 s and than one and a half frames.
+    for fps, late_s, stalls in ((30, 0.14, False), (30, 0.16, True), (2, 0.74, False),
+                                (2, 0.76, True)):
+        clock.frames_s = []
+        clock.when_drawn = lambda frame, late_s=late_s: late_s * (frame == 5)  # type: ignore[misc]
+        main(["99", "d", "v_mps=0.4", f"fps_target={fps}", "--frames", "8"])
+        xs = positions_m(capsys)
+        assert (xs[4] == xs[5]) is stalls
+
+
+def test_observed_dt_is_the_length_of_the_frame_before(clock: Clock, capsys: Capture) -> None:
+    clock.when_drawn = lambda frame: 0.12 if frame % 3 == 0 else 0.0
+    main(["99", "d", "v_mps=0.5", "fps_target=10", "--frames", "12", "use_observed_dt=True"])
+    xs = positions_m(capsys)
+    for frame, length_s in enumerate(clock.lengths_s(), start=1):
+        assert xs[frame] - xs[frame - 1] == pytest.approx(0.5 * length_s, abs=0.0101)
+
+
+def test_the_details_show_the_observed_rate(clock: Clock, capsys: Capture) -> None:
+    clock.when_drawn = lambda frame: 0.05 if frame == 3 else 0.0
+    main(["99", "d", "fps_target=100", "--frames", "6"])
+    rates = re.findall(r"FPS = +([0-9]+)", capsys.readouterr().out)
+    assert rates[0] == "100"
+    assert rates[3] == "20"
+
+
+def test_fast_runs_at_the_nominal_dt_whatever_use_observed_dt_says(capsys: Capture) -> None:
+    main(["9", "d", "--fast", "--frames", "50"])
+    scene = Scene(**examples.EXAMPLES[9].settings)
+    x_m, v_mps = scene.x_m, scene.v_mps
+    for shown_m in positions_m(capsys):
+        x_m, v_mps, _ = step(scene, x_m, v_mps, 0.1)
+        assert shown_m == round(x_m, 2)
+
+
+class Keyboard:
+    """Keys that are pressed at set moments of the clock."""
+
+    def __init__(self, clock: Clock, monkeypatch: pytest.MonkeyPatch, **presses: str) -> None:
+        self.clock, self.zero_s = clock, clock.now_s
+        self.due = [(float(at[1:].replace("_", ".")), key) for at, key in presses.items()]
+        monkeypatch.setattr(examples.Terminal, "read", self.read)
+
+    def read(self, *_: object) -> str:
+        keys = ""
+        while self.due and self.clock.now_s - self.zero_s >= self.due[0][0]:
+            keys += self.due.pop(0)[1]
+        return keys
+
+
+def ending(capsys: Capture) -> str:
+    return capsys.readouterr().out.splitlines()[-1]
+
+
+@pytest.mark.parametrize(("key", "why"), [
+    ("x", "x was pressed"), ("X", "x was pressed"), ("\x1b", "Esc was pressed"),
+    ("\x03", "Ctrl-C was pressed")])
+def test_keys_that_quit(key: str, why: str, clock: Clock, monkeypatch: pytest.MonkeyPatch,
+                        capsys: Capture) -> None:
+    Keyboard(clock, monkeypatch, t4=key)
+    assert main(["10"]) == 0
+    assert len(clock.frames_s) in (10, 11)
+    assert ending(capsys) == f"Stopped after {len(clock.frames_s)} frames: {why}."
+
+
+def test_x_is_answered_within_a_long_frame(clock: Clock, monkeypatch: pytest.MonkeyPatch) -> None:
+    Keyboard(clock, monkeypatch, t7="x")
+    began_s = clock.now_s
+    main(["99", "fps_target=0.1"])
+    assert clock.now_s - began_s == pytest.approx(7, abs=0.1)
+
+
+@pytest.mark.parametrize("key", ["p", "P", "\x13"])
+def test_p_pauses_and_resumes_and_the_clock_stands_still_meanwhile(
+        key: str, clock: Clock, monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
+    Keyboard(clock, monkeypatch, t4_05=key, t24=key, t25_05="x")
+    main(["99", "d", "v_mps=0.4", "fps_target=10", "use_observed_dt=True"])
+    assert max(clock.lengths_s()) == pytest.approx(20, abs=0.1)
+    xs = positions_m(capsys)
+    # No leap over the pause: the frame that it interrupts and the next one share 0.2 s.
+    assert max(b - a for a, b in itertools.pairwise(xs)) <= 0.4 * 0.2
+    assert len(xs) in range(20, 24)
+
+
+def test_x_pressed_in_the_header_s_pause_counts(
+        clock: Clock, monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
+    Keyboard(clock, monkeypatch, t1="x")
+    main(["10"])
+    assert ending(capsys) == "Stopped after 0 frames: x was pressed."
+
+
+def test_p_pressed_in_the_header_s_pause_counts(
+        clock: Clock, monkeypatch: pytest.MonkeyPatch) -> None:
+    Keyboard(clock, monkeypatch, t1="p", t60="p")
+    began_s = clock.now_s
+    main(["10", "--frames", "1"])
+    assert clock.frames_s[0] - began_s == pytest.approx(60, abs=0.1)
+
+
+def test_ctrl_c_cuts_the_header_s_pause_short_and_a_diamond_says_so(
+        clock: Clock, monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
+    Keyboard(clock, monkeypatch, t1="\x03")
+    began_s = clock.now_s
+    main(["10", "--frames", "1"])
+    assert clock.frames_s[0] - began_s == pytest.approx(1, abs=0.1)
+    assert "   *\n  * *\n *   *\n  * *\n   *\n" in capsys.readouterr().out
+
+
+def test_keys_that_come_together_with_ctrl_c_count(
+        clock: Clock, monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
+    Keyboard(clock, monkeypatch, t1="\x03x")
+    main(["10"])
+    assert ending(capsys) == "Stopped after 0 frames: x was pressed."
+
+
+@pytest.mark.parametrize(("columns", "width_px"), [(80, 48), (200, 135), (168, 135), (20, 10)])
+def test_a_narrow_terminal_shrinks_track_and_zoom_together(
+        columns: int, width_px: int, monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
+    monkeypatch.setenv("COLUMNS", str(columns))
+    monkeypatch.setattr("sys.stdout.isatty", lambda: True)
+    main(["10", "d", "--fast", "--frames", "40"])
+    text = capsys.readouterr().out
+    lines = [line for line in text.splitlines() if "FPS =" in line]
+    assert {abs(line.index("x =") - width_px) <= 1 for line in lines} == {True}
+    assert max(map(len, lines)) <= max(columns, 43)
+    assert ("physics is untouched" in " ".join(text.split())) is (width_px < 135)
+    walls = [i for i, c in enumerate(lines[0]) if c == "|"]
+    scale = lines[0].index("x =") / 135
+    assert walls == [round(0.25 * 55 * scale), round(2.2 * 55 * scale)]
+    assert lines[13].endswith("x =   0.45, v =  2.49, FPS =  10")
+
+
+def test_in_a_pipe_the_width_is_the_scene_s(
+        monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
+    monkeypatch.setenv("COLUMNS", "80")
+    main(["10", "d", "--fast", "--frames", "1"])
+    assert capsys.readouterr().out.splitlines()[-2].index("x =") == 135
