@@ -194,6 +194,50 @@ def test_12_rests_from_its_Zeno_point_on() -> None:
     assert step(scene, 2.0, 0.0, 11.92)[:2] == (0.25, 0.0)
 
 
+def test_13_gains_energy_and_hits_the_far_wall_in_frame_24() -> None:
+    says(13, "a^2 dt^2/2 = 0.02 m^2/s^2", "far wall in frame 24")
+    assert pytest.approx(0.02) == 2.0**2 * 0.1**2 / 2
+    found = states(13, 24)
+    assert [n for n, (_, _, mark_m) in enumerate(found, 1) if (mark_m or 0) > 2.2] == [24]
+    assert max(x_m for x_m, _, _ in found[14:23]) > 2.0
+
+
+def test_14_is_outside_from_the_first_frame_on_and_out_of_the_picture(capsys: Capture) -> None:
+    says(14, "from the first frame on it is outside", "4.1 m further every other frame", "4 m")
+    xs = [x_m for x_m, _, _ in states(14, 600)]
+    assert all(x_m < 0.25 or x_m > 2.2 for x_m in xs)
+    assert {round(abs(b) - abs(a), 6) for a, b in zip(xs, xs[2:], strict=False)} == {4.1}
+    assert not {"*", "0"} & set("".join(film(capsys, "14", "--frames", "600").lines))
+
+
+def test_15_creeps_a_tenth_of_a_metre_a_frame(capsys: Capture) -> None:
+    says(15, "3.9 m", "0.1 m from where it was", "never stops")
+    xs = [1.65] + [x_m for x_m, _, _ in states(15, 600)]
+    assert all(0.25 <= x_m <= 2.2 for x_m in xs)
+    assert sum(abs(b - a) == pytest.approx(0.1) for a, b in pairwise(xs)) > 550
+    assert film(capsys, "15", "--frames", "600").ending.endswith("that is the frame limit.")
+
+
+def test_16_is_a_column_off_in_frame_2_and_up_to_90_cm_within_20_s(capsys: Capture) -> None:
+    says(16, "a column apart in frame 2", "as much as 0.9 m within 20 s")
+    lines = film(capsys, "16", "d", "--frames", "200").lines
+    assert lines[1].index("o") - lines[1].index("*") == 1
+    errors_m = [abs(float(line.split("err = ")[1])) for line in lines]
+    assert max(errors_m) == pytest.approx(0.9, abs=0.05)
+
+
+def test_the_exact_mark_is_where_kinematics_has_the_car(capsys: Capture) -> None:
+    for number in ("13", "16"):
+        for frame, line in enumerate(film(capsys, number, "d", "--frames", "26").lines, 1):
+            # The truth of example 8: x = 2 - t^2 about each turn at the start mark
+            since_turn_s = math.remainder(frame / 10, 2 * math.sqrt(1.75))
+            true_m = 2 - since_turn_s**2
+            x_m, err_m = details(line)[0], float(line.split("err = ")[1])
+            assert x_m - err_m == pytest.approx(true_m, abs=0.006)
+            if "o" in line[:135]:
+                assert line.index("o") == round(true_m * 55)
+
+
 def test_the_own_scene_is_a_car_at_rest_in_mid_track() -> None:
     assert OWN_SCENE.settings == {}
     assert (Scene().v_mps, Scene().a_mps2) == (0, 0)
