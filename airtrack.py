@@ -3,6 +3,8 @@
 
     python airtrack.py             the one-pager
     python airtrack.py 10 d        example 10, with details
+    python airtrack.py chart       speed against accuracy, charted
+    python airtrack.py stability   where methods fail, mapped
     python airtrack.py -h          every example, every setting
 
 The car is a point: a position and a velocity, nothing else. Each frame moves it, settles any
@@ -19,7 +21,8 @@ Names carry their units:
 
 Read it from top to bottom; each section uses what stands above it:
     1. Moving     2. Settling a collision     3. The scene     4. One frame
-    5. Drawing    6. The run                  7. The command line
+    5. Drawing    6. The run                  7. Speed against accuracy
+    8. Where methods fail                     9. The command line
 The examples, as data, and the keys are in examples.py.
 """
 
@@ -39,8 +42,10 @@ from collections.abc import Iterable
 from contextlib import nullcontext
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
+from itertools import product
 from time import perf_counter as clock_s
-from typing import Any, NoReturn
+from time import process_time as processor_s
+from typing import Any
 
 from examples import EXAMPLES, OWN_SCENE, Example, Keys, Terminated
 
@@ -56,17 +61,14 @@ def forward(x_m: float, v_mps: float, a_mps2: float, dt_s: float) -> State:
     """Forward Euler. The energy E = v^2/2 - a x changes by +a^2 dt^2/2 a step: it grows."""
     return x_m + v_mps * dt_s, v_mps + a_mps2 * dt_s
 
-
 def backward(x_m: float, v_mps: float, a_mps2: float, dt_s: float) -> State:
     """Backward Euler (for a constant a, semi-implicit too). E changes by -a^2 dt^2/2 a step."""
     v_mps += a_mps2 * dt_s
     return x_m + v_mps * dt_s, v_mps
 
-
 def exact(x_m: float, v_mps: float, a_mps2: float, dt_s: float) -> State:
     """Kinematics: x = x0 + v0 t + a t^2/2 and v = v0 + a t. E stays as it is."""
     return x_m + v_mps * dt_s + a_mps2 * dt_s * dt_s / 2, v_mps + a_mps2 * dt_s
-
 
 MOTIONS = {"forward": forward, "backward": backward, "exact": exact}
 
@@ -86,21 +88,18 @@ def none(scene: Scene, start: State, free: State, wall_m: float, dt_s: float) ->
     free_m, free_mps = free
     return free_m, -scene.CR * free_mps
 
-
 def surface(scene: Scene, start: State, free: State, wall_m: float, dt_s: float) -> State:
     """Put the car on the wall."""
     return wall_m, -scene.CR * free[1]
 
-
 def rebound(scene: Scene, start: State, free: State, wall_m: float, dt_s: float) -> State:
     """Put the car CR * overlap off the wall: as far as it would have bounced back by now.
 
-    An overlap * (1 + CR) longer than the track throws it beyond the far wall.
+    If that is longer than the track, it is thrown through the far wall.
     """
     free_m, free_mps = free
     overlap_m = free_m - wall_m
     return free_m - overlap_m * (1 + scene.CR), -scene.CR * free_mps
-
 
 def arrival(d_m: float, u_mps: float, g_mps2: float, graze_m: float) -> tuple[float, float]:
     """When and how fast does the car reach a wall d_m ahead? (t_s, s_mps); never: (inf, 0).
@@ -120,7 +119,6 @@ def arrival(d_m: float, u_mps: float, g_mps2: float, graze_m: float) -> tuple[fl
         return 2 * d_m / (u_mps + s_mps), s_mps
     return math.inf, 0.0
 
-
 def hops(v_mps: float, g_mps2: float, CR: float, t_s: float, dt_s: float) -> State:
     """Take all the whole hops that fit into t_s at once: (time left, speed off the wall then).
 
@@ -139,7 +137,6 @@ def hops(v_mps: float, g_mps2: float, CR: float, t_s: float, dt_s: float) -> Sta
     n = math.floor(math.log1p(-t_s * (1 - CR) / h_s) / math.log(CR))
     n_hops_s = -h_s * math.expm1(n * math.log(CR)) / (1 - CR)
     return max(0.0, t_s - n_hops_s), v_mps * CR**n
-
 
 def replay(scene: Scene, start: State, free: State, wall_m: float, dt_s: float) -> State:
     """Replay the frame from its start, from wall to wall, each flight in closed form.
@@ -168,7 +165,6 @@ def replay(scene: Scene, start: State, free: State, wall_m: float, dt_s: float) 
                 return wall_m, 0.0
         x_m, v_mps = wall_m, -side * off_mps
 
-
 CORRECTIONS = {"none": none, "surface": surface, "rebound": rebound, "replay": replay}
 
 
@@ -186,7 +182,6 @@ def number(default: float, low: float, high: float, unit: str, meaning: str) -> 
         "is_ok": lambda value: (isinstance(value, kinds) and not isinstance(value, bool)
                                 and low <= value <= high)})
 
-
 def choice(default: object, values: Iterable[Any], meaning: str) -> Any:
     """A setting that is one of a few values."""
     named = {str(value): value for value in values}
@@ -197,13 +192,11 @@ def choice(default: object, values: Iterable[Any], meaning: str) -> Any:
         "read": lambda text: named.get(text, named.get(text.capitalize(), text)),
         "is_ok": lambda value: value in named.values()})
 
-
 def nearest(word: str, names: Iterable[str]) -> str:
     """The first of the names that begins with the word, or else the one most like it."""
     word, lower = word.lower(), {name.lower(): name for name in names}
     begins = [name for name in lower if word and name.startswith(word)]
     return lower[(begins or difflib.get_close_matches(word, lower, n=1, cutoff=0))[0]]
-
 
 def with_mark(line: str, mark: str, at_px: float, over: str) -> str:
     """The line with the mark at its column, if it has that column and what is there is in over."""
@@ -211,7 +204,6 @@ def with_mark(line: str, mark: str, at_px: float, over: str) -> str:
     if 0 <= column < len(line) and line[column] in over:
         return f"{line[:column]}{mark}{line[column + 1:]}"
     return line
-
 
 @dataclass(frozen=True)
 class Scene:
@@ -296,13 +288,11 @@ def render_track(scene: Scene, x_m: float, mark_m: float | None = None,
         line = with_mark(line, "0", mark_m * scene.m_to_px, " o")
     return with_mark(line, "*", x_m * scene.m_to_px, " o0.|")
 
-
 def details_text(x_m: float, v_mps: float, fps: float, exact_m: float | None = None) -> str:
     """What stands behind the line with d: position, velocity, rate and error."""
     # The % takes two thirds of an f-string's time, and this is half the time of a frame.
     text = "x = %6.2f, v = %5.2f, FPS = %3.0f" % (x_m, v_mps, fps)  # noqa: UP031
     return text if exact_m is None else f"{text}, err = {x_m - exact_m:9.2e}"
-
 
 def fit(scene: Scene, details: bool) -> Scene:
     """The scene with track and zoom shrunk together until line and details fit the terminal."""
@@ -315,38 +305,19 @@ def fit(scene: Scene, details: bool) -> Scene:
 
 # ==== 6. The run ================================================================================
 
-def truth(scene: Scene) -> Scene:
-    """The same scene moved and settled exactly (from a start on the track)."""
-    return replace(scene, x_m=scene.to_track(scene.x_m), motion="exact", correction="replay")
-
-
-def header(scene: Scene, title: str, details: bool) -> str:
-    """What a run starts from, in a few lines."""
-    on = {True: "on", False: "off"}
-    return f"""\
-{title}
-  start     x = {scene.x_m:g} m, v = {scene.v_mps:g} m/s, a = {scene.a_mps2:g} m/s^2
-  walls     at {scene.left_edge_m:g} m and {scene.right_edge_m:g} m, CR = {scene.CR:g}
-  method    motion {scene.motion}, correction {scene.correction}
-  frames    {scene.fps_target:g} FPS, observed dt {on[scene.use_observed_dt]}, \
-auto-off {on[scene.auto_off]}
-  drawing   {scene.m_to_px:g} px/m, details {on[details]}
-  marks     start {on[scene.show_start_mark]}, collision {on[scene.show_collision_mark]}, \
-exact {on[scene.show_exact_mark]}
-"""
-
-
 def say(text: str) -> None:
     """Print a paragraph as wide as the terminal, or as is good to read."""
     print(textwrap.fill(text, min(100, shutil.get_terminal_size().columns)), flush=True)
 
-
-def introduce(scene: Scene, title: str, example: Example, details: bool, keys: Keys | None) -> None:
+def introduce(scene: Scene, view: Scene, title: str, example: Example, details: bool,
+              keys: Keys | None) -> None:
     """Say what is to be seen and which keys there are, and leave time to read it."""
     if example.look_for:  # the one-pager has no header and no pause
-        print(header(scene, title, details))
+        say(title)
+        say(", ".join(f"{f.name}={getattr(scene, f.name)}" for f in fields(scene))
+            + f", details={details}")
+        print()
         say(example.look_for)
-    view = fit(scene, details)
     if view.width_px < scene.width_px:
         say(f"To fit this terminal, the track is drawn {view.width_px} px wide at "
             f"{view.m_to_px:.3g} px/m. The physics is untouched.")
@@ -363,7 +334,6 @@ def introduce(scene: Scene, title: str, example: Example, details: bool, keys: K
     if example.look_for:
         print()
 
-
 class Pacer:
     """Begins frames at absolute deadlines, whatever time each takes to compute and to print."""
 
@@ -375,45 +345,54 @@ class Pacer:
         """Wait, answering keys, until the next frame begins. Returns the last one's length in s."""
         self.deadline_s += self.period_s
         paused_s = keys.wait_until(self.deadline_s)
-        now_s = clock_s()
-        length_s = now_s - self.began_s - paused_s
-        self.began_s = now_s
         self.deadline_s += paused_s
-        if now_s > self.deadline_s + self.period_s:  # missed, and not made up by a burst
-            self.deadline_s = now_s
+        length_s = clock_s() - self.began_s - paused_s
+        self.began_s += length_s + paused_s
+        if self.began_s > self.deadline_s + self.period_s:  # missed, and not made up by a burst
+            self.deadline_s = self.began_s
         return length_s
 
+def by_method(scene: Scene, motion: str = "exact", correction: str = "replay") -> Scene:
+    """The scene by another method, by default exactly. (Replay has to start on the track.)"""
+    x_m = scene.to_track(scene.x_m) if correction == "replay" else scene.x_m
+    return replace(scene, x_m=x_m, motion=motion, correction=correction)
+
+def truth_m(scene: Scene, t_s: float) -> float:
+    """Where the car truly is t_s after the start, by one exact step."""
+    exactly = by_method(scene)
+    return step(exactly, exactly.x_m, scene.v_mps, t_s)[0]
 
 def run(scene: Scene, title: str, example: Example, details: bool, keys: Keys | None,
         frames: int) -> int:
-    """Show the film, and say why it ended. Without keys it runs as fast as it can."""
-    view, exact_scene = fit(scene, details), truth(scene)
+    """Show the film and say why it ended. Without keys it runs as fast as it can.
+
+    Returns the exit status: 0, or 128 + the number of the signal that ended it.
+    """
+    view, dt_s, fps, stalled = fit(scene, details), 1 / scene.fps_target, scene.fps_target, False
     x_m, v_mps, mark_m, exact_m = scene.x_m, scene.v_mps, None, None
-    dt_s, fps, stalled = 1 / scene.fps_target, scene.fps_target, False
-    frame, elapsed_s, recent_m = 0, 0.0, deque[float](maxlen=10)
+    frame, t_s, recent_m = 0, 0.0, deque[float](maxlen=10)
     why, status = "that is the frame limit", 0
     try:
         with keys or nullcontext():
-            introduce(scene, title, example, details, keys)
+            introduce(scene, view, title, example, details, keys)
             pacer = Pacer(dt_s)
             while frame < frames:
-                # 1. Keys, and the wait for the frame's moment.
+                # 1. Wait for the frame's moment, and answer keys meanwhile.
                 if keys:
                     length_s = pacer.next_frame(keys)
                     if keys.quit_reason:
                         why = keys.quit_reason
                         break
                     fps = 1 / length_s
+                    dt_s = length_s if scene.use_observed_dt else dt_s
                     stalled = length_s > max(0.15, 1.5 / scene.fps_target)
-                    if scene.use_observed_dt:
-                        dt_s = length_s
                 # 2. Move the car and settle any collision. After a stall it holds still.
                 if not stalled:
                     x_m, v_mps, mark_m = step(scene, x_m, v_mps, dt_s)
-                    elapsed_s += dt_s
+                    t_s += dt_s
                 # 3. Draw.
                 if scene.show_exact_mark:
-                    exact_m = step(exact_scene, exact_scene.x_m, scene.v_mps, elapsed_s)[0]
+                    exact_m = truth_m(scene, t_s)
                 line = render_track(view, x_m, mark_m, exact_m)
                 if details:
                     line += details_text(x_m, v_mps, fps, exact_m)
@@ -421,7 +400,7 @@ def run(scene: Scene, title: str, example: Example, details: bool, keys: Keys | 
                 if keys:
                     sys.stdout.flush()
                 frame += 1
-                # 4. At rest against a wall?
+                # 4. At rest? Then the last ten positions are, in the mean, those of a wall.
                 recent_m.append(x_m)
                 if scene.auto_off and frame >= 10:
                     mean_m = sum(recent_m) / 10
@@ -437,82 +416,227 @@ def run(scene: Scene, title: str, example: Example, details: bool, keys: Keys | 
     return status
 
 
-# ==== 7. The command line =======================================================================
+# ==== 7. Speed against accuracy: the chart ======================================================
 
+SPAN_S = 20  # what chart and map simulate
+CHART_FPS = (10, 30, 60, 120, 240, 480, 960, 1920, 3840)
+SERIES = {"f": ("forward", "rebound"), "s": ("backward", "surface"),
+          "b": ("backward", "rebound"), "e": ("exact", "replay")}
+Points = dict[str, list[tuple[int, float, float]]]  # letter: (fps, error_m, cost_s) at each rate
+
+def truths_m(scene: Scene, rate: int) -> list[float]:
+    """Where the car truly is, rate times a second."""
+    return [truth_m(scene, k / rate) for k in range(1, SPAN_S * rate + 1)]
+
+def measure(scene: Scene, fps: int, samples_m: list[float]) -> tuple[int, float, float]:
+    """(fps, error_m, cost_s): the largest |x - truth| over the samples, one every 0.1 s, and the
+    processor time of the steps alone for a simulated second, the best of several repeats."""
+    dt_s, costs_s = 1 / fps, []
+    for _ in range(max(3, 2000 // fps)):
+        x_m, v_mps, xs_m, began_s = scene.x_m, scene.v_mps, [], processor_s()
+        for _ in samples_m:
+            for _ in range(fps // 10):
+                x_m, v_mps, _ = step(scene, x_m, v_mps, dt_s)
+            xs_m.append(x_m)
+        costs_s.append((processor_s() - began_s) / SPAN_S)
+    error_m = max(abs(x_m - sample_m) for x_m, sample_m in zip(xs_m, samples_m, strict=True))
+    return fps, error_m, min(costs_s)
+
+def picture(points: Points) -> str:
+    """The points as letters on log-log axes, error over cost; + where series meet."""
+    logs = [(math.log10(max(cost_s, 1e-9)), math.log10(max(error_m, 1e-16)), letter)
+            for letter, series in points.items() for _, error_m, cost_s in series]
+    xs, ys, _ = zip(*logs, strict=True)
+    left, right = math.floor(min(xs)), math.floor(max(xs)) + 1
+    bottom, top = math.floor(min(ys)), math.floor(max(ys)) + 1
+    wide, high = 72 // (right - left), max(1, 18 // (top - bottom))  # of a power of ten
+    grid = [[" "] * (wide * (right - left) + 1) for _ in range(high * (top - bottom) + 1)]
+    for x, y, letter in logs:
+        row, column = round((top - y) * high), round((x - left) * wide)
+        grid[row][column] = letter if grid[row][column] in (" ", letter) else "+"
+    lines = ["error (m)"]
+    for row, cells in enumerate(grid):
+        label = f"1e{top - row // high:+03d}" if row % high == 0 else ""
+        lines.append(f"{label:>8} |{''.join(cells)}".rstrip())
+    ticks = "".join(f"{f'1e{x:+03d}':{wide}}" for x in range(left, right + 1))
+    return "\n".join([*lines, " " * 9 + "+" + "-" * (wide * (right - left) + 1),
+                      " " * 8 + ticks.rstrip(),
+                      f"{'processor time (s) for a simulated second':>82}"])
+
+def conclusion(points: Points, pixel_m: float) -> str:
+    """What each method needs to stay within one drawn pixel, and what that costs beside exact."""
+    needs, costs_s = {}, {}
+    for letter, series in points.items():
+        needs[letter] = f"more than {CHART_FPS[-1]} FPS"
+        for fps, error_m, cost_s in reversed(series):  # down to the last rate that will do
+            if error_m > pixel_m:
+                break
+            needs[letter], costs_s[letter] = f"{fps} FPS", cost_s
+    for letter in costs_s.keys() - {"e"}:
+        ratio = float(f"{costs_s[letter] / costs_s['e']:.2g}")
+        needs[letter] += f" and {ratio:g} times exact's processor time"
+    *first, last = (f"{' + '.join(SERIES[letter])} needs {needs[letter]}" for letter in SERIES)
+    return (f"To stay within one drawn pixel of the truth ({1000 * pixel_m:.3g} mm), "
+            f"{', '.join(first)}, and {last}.")
+
+def chart(scene: Scene, title: str, file: str | None) -> None:
+    """Measure each method at each rate; show a picture, a table and what follows from them."""
+    samples_m = truths_m(scene, 10)
+    points: Points = {letter: [] for letter in SERIES}
+    for letter, method in SERIES.items():
+        for fps in CHART_FPS:
+            progress(f"measuring {' + '.join(method)} at {fps} FPS")
+            points[letter].append(measure(by_method(scene, *method), fps, samples_m))
+    progress("")
+    print(f"{title}\nSpeed against accuracy, {SPAN_S} simulated seconds\n\n{picture(points)}\n")
+    names = [f"{letter}: {' + '.join(method)}" for letter, method in SERIES.items()]
+    print(" " * 5 + "".join(f"{name:>23}" for name in names))
+    print("  FPS" + f"{'error (m)':>13}{'cost (s)':>10}" * len(SERIES))
+    for row in zip(*points.values(), strict=True):
+        cells = (f"{error_m:13.1e}{cost_s:10.1e}" for _, error_m, cost_s in row)
+        print(f"{row[0][0]:5}{''.join(cells)}")
+    print()
+    say(conclusion(points, 1 / scene.m_to_px))
+    if file:
+        axes = (figure := new_figure(file)).add_subplot()
+        for name, series in zip(names, points.values(), strict=True):
+            _, errors_m, costs_s = zip(*series, strict=True)
+            axes.loglog(costs_s, [max(error_m, 1e-16) for error_m in errors_m], "o-", label=name)
+        axes.set(title=title, xlabel="processor time (s) for a simulated second",
+                 ylabel=f"largest error in {SPAN_S} s (m)")
+        axes.legend()
+        figure.savefig(file)
+        print("\nThe chart is saved.")
+
+def progress(text: str) -> None:
+    """On a terminal, show a line that the next one replaces."""
+    if sys.stdout.isatty():
+        print(f"\r{text:50}\r", end="", flush=True)
+
+def new_figure(file: str) -> Any:
+    """An empty picture, saved already. Raises ValueError if that cannot be."""
+    try:
+        from matplotlib.figure import Figure
+        figure = Figure(figsize=(8, 5), layout="constrained")
+        figure.savefig(file)
+    except ImportError:
+        raise ValueError("--save needs matplotlib: python -m pip install '.[chart]'") from None
+    except (ValueError, OSError) as fault:
+        raise ValueError(f"--save {file!r}: {fault}") from None
+    return figure
+
+
+# ==== 8. Where methods fail: the stability map ==================================================
+
+MAP_FPS = (1, 2, 5, 10, 30, 60, 120, 240, 1000)
+VERDICTS = {"X": "thrown further than a track's length beyond a wall",
+            "S": "stuck: beyond the same wall all through the last 5 s",
+            "G": "gained more than 1 % of its energy",
+            "o": "more than a drawn pixel from the truth at some sample",
+            ".": "within a pixel all along"}
+
+def verdict(scene: Scene, fps: int, samples_m: list[float]) -> str:
+    """The first of the VERDICTS that 20 s of the scene deserve."""
+    low_m = scene.right_edge_m if scene.a_mps2 > 0 else scene.left_edge_m  # it is pulled there
+
+    def energy(x_m: float, v_mps: float) -> float:
+        return v_mps * v_mps / 2 - scene.a_mps2 * (x_m - low_m)
+
+    x_m, v_mps, found, beyond_m = scene.x_m, scene.v_mps, {"."}, deque[float](maxlen=5 * fps)
+    most = energy(x_m, v_mps) + 0.01 * abs(energy(x_m, v_mps)) + 1e-9
+    frames_a_sample = SPAN_S * fps // len(samples_m)
+    for frame in range(1, SPAN_S * fps + 1):
+        x_m, v_mps, _ = step(scene, x_m, v_mps, 1 / fps)
+        beyond_m.append(x_m - scene.to_track(x_m))
+        if abs(beyond_m[-1]) > scene.right_edge_m - scene.left_edge_m:
+            return "X"
+        if energy(x_m, v_mps) > most:
+            found.add("G")
+        if frame % frames_a_sample == 0:
+            error_m = abs(x_m - samples_m[frame // frames_a_sample - 1])
+            found.add("o" if error_m > 1 / scene.m_to_px else ".")
+    if min(beyond_m) > 0 or max(beyond_m) < 0:
+        found.add("S")
+    return next(letter for letter in VERDICTS if letter in found)
+
+def stability(scene: Scene, title: str) -> None:
+    """Print the map: a row a method, a column a frame rate, a letter for what happened there."""
+    print(f"{title}\nStability, {SPAN_S} simulated seconds\n")
+    print(f"{'FPS':20}" + "".join(f"{fps:6}" for fps in MAP_FPS))
+    samples_m = {fps: truths_m(scene, min(fps, 10)) for fps in MAP_FPS}
+    for method in product(MOTIONS, CORRECTIONS):
+        if method[1] != "replay" or method[0] == "exact":
+            row = (verdict(by_method(scene, *method), fps, samples_m[fps]) for fps in MAP_FPS)
+            print(f"{' + '.join(method):20}{''.join(f'{letter:>6}' for letter in row)}", flush=True)
+    print("\n" + "\n".join(f"{letter}  {meaning}" for letter, meaning in VERDICTS.items()))
+
+
+# ==== 9. The command line =======================================================================
+
+USAGE = """python airtrack.py [EXAMPLE] [d] [NAME=VALUE ...] [--fast] [--frames N]
+       python airtrack.py chart [EXAMPLE] [NAME=VALUE ...] [--save FILE]
+       python airtrack.py stability [EXAMPLE] [NAME=VALUE ...]"""
 SETTINGS = {f.name: f for f in fields(Scene)}
-
 
 def help_text() -> str:
     """The examples and the settings, for -h."""
-    columns = shutil.get_terminal_size().columns
-    lines = ["examples:"]
-    lines += [f"  {number:2}  {example.title}" for number, example in EXAMPLES.items()]
-    lines += ["", "settings (default, meaning, range), on top of the example's own:"]
+    lines = ["examples:", *(f"  {n:2}  {example.title}" for n, example in EXAMPLES.items()), "",
+             "settings (default, meaning, range), on top of the example's own:"]
     for name, f in SETTINGS.items():
-        lines += textwrap.wrap(f"  {name:20}{f.default!s:9} {f.metadata['meaning']}: "
-                               f"{f.metadata['allowed']}", columns, subsequent_indent=" " * 32)
+        lines += textwrap.wrap(
+            f"  {name:20}{f.default!s:9} {f.metadata['meaning']}: {f.metadata['allowed']}",
+            shutil.get_terminal_size().columns, subsequent_indent=" " * 32)
     return "\n".join(lines)
 
-
-class Parser(argparse.ArgumentParser):
-    """An ArgumentParser that leaves it to main to report an error."""
-
-    def error(self, message: str) -> NoReturn:
-        raise ValueError(message)
-
-
-def frame_count(text: str) -> int:
-    """The N of --frames."""
-    if not re.fullmatch("[0-9]{1,18}", text) or int(text) < 1:
-        raise argparse.ArgumentTypeError(f"must be a whole number from 1 up, not {text!r}")
-    return int(text)
-
-
 def parse(argv: list[str] | None) -> argparse.Namespace:
-    """Take the command line apart. Raises ValueError for whatever does not belong there."""
-    parser = Parser(
-        prog="airtrack.py", description="A car on a 1-D track, a line of text a frame.",
-        usage="python airtrack.py [EXAMPLE] [d] [NAME=VALUE ...] [--fast] [--frames N]",
-        epilog=help_text(),
-        formatter_class=argparse.RawDescriptionHelpFormatter, allow_abbrev=False)
-    parser.add_argument("words", nargs="*", metavar="EXAMPLE", help="its number (default: 0)")
+    """Take the command line apart. Raises ValueError or ArgumentError for what is wrong in it."""
+    parser = argparse.ArgumentParser(usage=USAGE, epilog=help_text(), allow_abbrev=False,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter,
+                                     exit_on_error=False)
+    parser.add_argument("words", nargs="*", metavar="EXAMPLE",
+                        help="a number; default 0, for chart and stability 10")
     parser.add_argument("--fast", action="store_true", help="no pacing, no pauses, no window")
-    parser.add_argument("--frames", metavar="N", type=frame_count, default=50_000,
-                        help="stop after N frames (default: 50 000)")
+    parser.add_argument("--frames", metavar="N", help="stop after N frames (default 50000)")
+    parser.add_argument("--save", metavar="FILE", help="draw the chart into a .png, .svg, ... too")
     options, unknown = parser.parse_known_intermixed_args(argv)
     if unknown:
-        hint = nearest(unknown[0], ("--fast", "--frames", "--help"))
+        hint = nearest(unknown[0], ("--fast", "--frames", "--save", "--help"))
         raise ValueError(f"there is no option {unknown[0]!r}; nearest: {hint}")
-    options.number, options.details, options.settings = None, False, {}
-    for word in options.words:
+    command = options.words[0] if options.words[:1] in (["chart"], ["stability"]) else "run"
+    number, details, settings = None, False, {}
+    for word in options.words[command != "run":]:
         name, equals, text = word.partition("=")
         if equals and name not in SETTINGS:
             raise ValueError(f"there is no setting {name!r}; nearest: {nearest(name, SETTINGS)}")
-        if name in options.settings:
+        if name in settings:
             raise ValueError(f"{name} is set twice")
         if equals:
             try:
-                options.settings[name] = SETTINGS[name].metadata["read"](text)
+                settings[name] = SETTINGS[name].metadata["read"](text)
             except ValueError:
-                options.settings[name] = text  # Scene will say what it should have been
+                settings[name] = text  # Scene will say what it should have been
         elif word == "d":
-            options.details = True
-        elif re.fullmatch("[-+]?[0-9]{1,18}", word):
-            if options.number is not None:
-                raise ValueError(f"one EXAMPLE at a time, not {options.number} and {word}")
-            options.number = int(word)
+            details = True
+        elif re.fullmatch("[-+]?[0-9]{1,18}", word) and number is None:
+            number = int(word)
         else:
-            hint = nearest(word, ("d", *map(str, EXAMPLES), *SETTINGS))
-            raise ValueError(f"{word!r} is no EXAMPLE ({min(EXAMPLES)} to {max(EXAMPLES)}), "
-                             f"not d, not NAME=VALUE; nearest: {hint}")
+            hint = nearest(word, ("d", *map(str, EXAMPLES), "chart", "stability", *SETTINGS))
+            raise ValueError(f"{word!r} is no EXAMPLE (one number, {min(EXAMPLES)} to "
+                             f"{max(EXAMPLES)}), not d, not NAME=VALUE; nearest: {hint}")
+    if options.frames is not None and not re.fullmatch("0*[1-9][0-9]{0,17}", options.frames):
+        raise ValueError(f"--frames N must be a whole number from 1 up, not {options.frames!r}")
+    if command != "run" and (details or options.fast or options.frames):
+        raise ValueError(f"d, --fast and --frames do not go with {command}")
+    if command != "chart" and options.save is not None:
+        raise ValueError("--save FILE goes with chart only")
+    number = number if number is not None else 0 if command == "run" else 10
+    vars(options).update(command=command, number=number, details=details, settings=settings)
     return options
-
 
 def fail(message: object) -> int:
     """Tell in one line what is wrong; the exit status for that."""
     print(f"airtrack.py: error: {message}", file=sys.stderr)
     return 2
-
 
 def main(argv: list[str] | None = None) -> int:
     """Carry out a command line, sys.argv's by default. Returns the exit status, 2 for an error."""
@@ -520,21 +644,28 @@ def main(argv: list[str] | None = None) -> int:
         return fail("there is no standard output to draw on")
     try:
         options = parse(argv)
-        number = options.number or 0
-        example = EXAMPLES.get(number, OWN_SCENE)
+        example = EXAMPLES.get(options.number, OWN_SCENE)
         scene = Scene(**example.settings | options.settings)
+        if options.save is not None:
+            new_figure(options.save)  # what is wrong with FILE is wrong before the measuring too
     except SystemExit:  # argparse, after -h
         return 0
-    except ValueError as fault:
+    except (ValueError, argparse.ArgumentError) as fault:
         return fail(fault)
     try:
-        title = f"Example {number}: {example.title}"
-        if number not in EXAMPLES:
+        title = f"Example {options.number}: {example.title}"
+        if options.number not in EXAMPLES:
             title = example.title
-            say(f"There is no example {number} (there are {min(EXAMPLES)} to {max(EXAMPLES)}): "
-                "the default scene runs.")
-        return run(scene, title, example, options.details or example.details,
-                   None if options.fast else Keys(), options.frames)
+            say(f"There is no example {options.number} (there are {min(EXAMPLES)} to "
+                f"{max(EXAMPLES)}): the default scene runs.")
+        if options.command == "chart":
+            chart(scene, title, options.save)
+        elif options.command == "stability":
+            stability(scene, title)
+        else:
+            return run(scene, title, example, options.details or example.details,
+                       None if options.fast else Keys(), int(options.frames or 50_000))
+        return 0
     except KeyboardInterrupt:
         return 130
     except OSError as fault:

@@ -1,56 +1,13 @@
 """The main loop, on a clock that the test sets: pacing, stalls, observed dt, the ends of a run."""
 
-import itertools
 import re
-from collections.abc import Callable
-from types import SimpleNamespace
+from itertools import pairwise
 
 import pytest
 
-import airtrack
 import examples
 from airtrack import Scene, main, step
-
-Capture = pytest.CaptureFixture[str]
-
-
-class Clock:
-    """A clock that goes on only while somebody sleeps, or when a test says so."""
-
-    def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
-        self.now_s = 1000.0
-        self.frames_s: list[float] = []  # when each frame was drawn
-        self.when_drawn: Callable[[int], float] = lambda frame: 0.0  # how long that takes
-        monkeypatch.setattr(airtrack, "clock_s", lambda: self.now_s)
-        monkeypatch.setattr(examples, "time", SimpleNamespace(
-            perf_counter=lambda: self.now_s, sleep=self.sleep))
-        render_track = airtrack.render_track
-
-        def render(*args: object) -> str:
-            self.frames_s.append(self.now_s)
-            self.now_s += self.when_drawn(len(self.frames_s))
-            return render_track(*args)  # type: ignore[arg-type]
-
-        monkeypatch.setattr(airtrack, "render_track", render)
-
-    def sleep(self, seconds: float) -> None:
-        assert seconds >= 0
-        self.now_s += seconds + 60e-6  # a little too long, as real ones are
-
-    def lengths_s(self) -> list[float]:
-        return [b - a for a, b in zip(self.frames_s, self.frames_s[1:], strict=False)]
-
-
-@pytest.fixture
-def clock(monkeypatch: pytest.MonkeyPatch) -> Clock:
-    monkeypatch.delenv("DISPLAY", raising=False)
-    monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
-    return Clock(monkeypatch)
-
-
-def positions_m(capsys: Capture) -> list[float]:
-    """The x of every frame in what was printed."""
-    return [float(x) for x in re.findall(r"x = +(-?[0-9.]+), v", capsys.readouterr().out)]
+from clock import Capture, Clock, Keyboard, positions_m
 
 
 @pytest.mark.parametrize("fps", [300, 240, 10])
@@ -82,7 +39,7 @@ def test_after_a_stall_the_car_holds_still_for_one_frame(
     clock.when_drawn = lambda frame: 2.0 if frame == 10 else 0.0
     main(["99", "d", "v_mps=0.3", "fps_target=10", "--frames", "15", f"use_observed_dt={observed}"])
     xs = positions_m(capsys)
-    moved_m = [round(b - a, 2) for a, b in itertools.pairwise(xs)]
+    moved_m = [round(b - a, 2) for a, b in pairwise(xs)]
     assert moved_m == [0.03] * 9 + [0.0] + [0.03] * 4
 
 
@@ -122,21 +79,6 @@ def test_fast_runs_at_the_nominal_dt_whatever_use_observed_dt_says(capsys: Captu
         assert shown_m == round(x_m, 2)
 
 
-class Keyboard:
-    """Keys that are pressed at set moments of the clock."""
-
-    def __init__(self, clock: Clock, monkeypatch: pytest.MonkeyPatch, **presses: str) -> None:
-        self.clock, self.zero_s = clock, clock.now_s
-        self.due = [(float(at[1:].replace("_", ".")), key) for at, key in presses.items()]
-        monkeypatch.setattr(examples.Terminal, "read", self.read)
-
-    def read(self, *_: object) -> str:
-        keys = ""
-        while self.due and self.clock.now_s - self.zero_s >= self.due[0][0]:
-            keys += self.due.pop(0)[1]
-        return keys
-
-
 def ending(capsys: Capture) -> str:
     return capsys.readouterr().out.splitlines()[-1]
 
@@ -167,7 +109,7 @@ def test_p_pauses_and_resumes_and_the_clock_stands_still_meanwhile(
     assert max(clock.lengths_s()) == pytest.approx(20, abs=0.1)
     xs = positions_m(capsys)
     # No leap over the pause: the frame that it interrupts and the next one share 0.2 s.
-    assert max(b - a for a, b in itertools.pairwise(xs)) <= 0.4 * 0.2
+    assert max(b - a for a, b in pairwise(xs)) <= 0.4 * 0.2
     assert len(xs) in range(20, 24)
 
 

@@ -1,0 +1,59 @@
+"""A clock that a test sets, keys that it presses, and what a run printed meanwhile."""
+
+import re
+from collections.abc import Callable
+from types import SimpleNamespace
+
+import pytest
+
+import airtrack
+import examples
+
+Capture = pytest.CaptureFixture[str]
+
+
+class Clock:
+    """A clock that goes on only while somebody sleeps, or when a test says so."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        self.now_s = 1000.0
+        self.frames_s: list[float] = []  # when each frame was drawn
+        self.when_drawn: Callable[[int], float] = lambda frame: 0.0  # how long that takes
+        monkeypatch.setattr(airtrack, "clock_s", lambda: self.now_s)
+        monkeypatch.setattr(examples, "time", SimpleNamespace(
+            perf_counter=lambda: self.now_s, sleep=self.sleep))
+        render_track = airtrack.render_track
+
+        def render(*args: object) -> str:
+            self.frames_s.append(self.now_s)
+            self.now_s += self.when_drawn(len(self.frames_s))
+            return render_track(*args)  # type: ignore[arg-type]
+
+        monkeypatch.setattr(airtrack, "render_track", render)
+
+    def sleep(self, seconds: float) -> None:
+        assert seconds >= 0
+        self.now_s += seconds + 60e-6  # a little too long, as real ones are
+
+    def lengths_s(self) -> list[float]:
+        return [b - a for a, b in zip(self.frames_s, self.frames_s[1:], strict=False)]
+
+
+class Keyboard:
+    """Keys that are pressed at set moments of the clock."""
+
+    def __init__(self, clock: Clock, monkeypatch: pytest.MonkeyPatch, **presses: str) -> None:
+        self.clock, self.zero_s = clock, clock.now_s
+        self.due = [(float(at[1:].replace("_", ".")), key) for at, key in presses.items()]
+        monkeypatch.setattr(examples.Terminal, "read", self.read)
+
+    def read(self, *_: object) -> str:
+        keys = ""
+        while self.due and self.clock.now_s - self.zero_s >= self.due[0][0]:
+            keys += self.due.pop(0)[1]
+        return keys
+
+
+def positions_m(capsys: Capture) -> list[float]:
+    """The x of every frame in what was printed."""
+    return [float(x) for x in re.findall(r"x = +(-?[0-9.]+), v", capsys.readouterr().out)]
