@@ -10,7 +10,7 @@
 The car is a point: a position and a velocity, nothing else. Each frame moves it, settles any
 collision with a wall and prints the track as a line, so that the scrolling terminal is the film.
 
-Names carry their units:
+Names carry their units, and stand for:
     x_m       position in metres                                     2.0
     v_mps     velocity in metres per second, to the right above 0   -1.5
     a_mps2    acceleration, constant, in metres per second squared  -2.0
@@ -19,7 +19,7 @@ Names carry their units:
     free_m    where the move alone, as if without walls, ends        0.2
     m_to_px   zoom in characters per metre                          55.0
 
-Read it from top to bottom; each section uses what stands above it:
+Read it from top to bottom; each section builds on those above it:
     1. Moving     2. Settling a collision     3. The scene     4. One frame
     5. Drawing    6. The run                  7. Speed against accuracy
     8. Where methods fail                     9. The command line
@@ -30,6 +30,7 @@ from __future__ import annotations
 
 import argparse
 import difflib
+import io
 import math
 import os
 import re
@@ -43,6 +44,7 @@ from contextlib import nullcontext
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from itertools import product
+from pathlib import Path
 from time import perf_counter as clock_s
 from time import process_time as processor_s
 from typing import Any
@@ -70,20 +72,23 @@ def exact(x_m: float, v_mps: float, a_mps2: float, dt_s: float) -> State:
     """Kinematics: x = x0 + v0 t + a t^2/2 and v = v0 + a t. E stays as it is."""
     return x_m + v_mps * dt_s + a_mps2 * dt_s * dt_s / 2, v_mps + a_mps2 * dt_s
 
+# A fourth motion is added here, and to SERIES in section 7 if it is to be charted.
 MOTIONS = {"forward": forward, "backward": backward, "exact": exact}
 
 
 # ==== 2. Settling a collision: the move has put the car beyond a wall; where is it really? ======
 #
-# Each correction gets the scene, the frame's start, the end of the free move, the wall that this
-# end is beyond, and dt_s. All turn the velocity round and keep CR of it. The first three only
-# shift the car from where it was found; replay goes back to see what happened in the frame.
+# A correction gets the scene (section 3; here its walls, a and CR), the state at the frame's start,
+# the state after the free move, the wall that this is beyond, and dt_s. The first three turn the
+# velocity round, keep CR of it, and differ in where they put the car. Replay does not correct the
+# free move but goes back to the frame's start and works out what happened in it.
 
 def none(scene: Scene, start: State, free: State, wall_m: float, dt_s: float) -> State:
     """Leave the car beyond the wall: a trap.
 
-    With CR < 1 and an acceleration into the wall, the slowed car does not get back out in one
-    frame. The next frame finds it in collision again and turns it round, inwards: it sinks.
+    With CR < 1, and all the more if it is pulled into the wall, the slowed car may not get back
+    out in one frame. Then the next one finds it in collision again and turns it round, inwards.
+    From there on each move out is shorter than the move in before it: it sinks (example 3).
     """
     free_m, free_mps = free
     return free_m, -scene.CR * free_mps
@@ -95,7 +100,9 @@ def surface(scene: Scene, start: State, free: State, wall_m: float, dt_s: float)
 def rebound(scene: Scene, start: State, free: State, wall_m: float, dt_s: float) -> State:
     """Put the car CR * overlap off the wall: as far as it would have bounced back by now.
 
-    If that is longer than the track, it is thrown through the far wall.
+    Only nearly right: the bounce was somewhere within the frame, but the speed is that of its
+    end. So the car leaves with a little too much or too little energy, and out of step with the
+    truth (example 8). If CR * overlap is longer than the track, it is thrown through the far wall.
     """
     free_m, free_mps = free
     overlap_m = free_m - wall_m
@@ -104,22 +111,22 @@ def rebound(scene: Scene, start: State, free: State, wall_m: float, dt_s: float)
 def arrival(d_m: float, u_mps: float, g_mps2: float, graze_m: float) -> tuple[float, float]:
     """When and how fast does the car reach a wall d_m ahead? (t_s, s_mps); never: (inf, 0).
 
-    u_mps is its speed, g_mps2 its acceleration, both towards the wall. Energy gives the speed
-    s at the wall, s^2 = u^2 + 2 g d. From s = u + g t the time is (s - u)/g = 2 d/(u + s); each
-    form is used where it does not subtract nearly equal numbers.
+    u_mps is its speed, g_mps2 its acceleration, both towards the wall. Energy gives the speed s
+    at the wall, s^2 = u^2 + 2 g d. From s = u + g t the time is (s - u)/g = 2 d/(u + s). For
+    u <= 0 the first form adds, for u > 0 the second: neither then loses digits to a difference.
     """
     s_squared = u_mps * u_mps + 2 * g_mps2 * d_m
     if u_mps <= 0 < g_mps2:
         s_mps = math.sqrt(s_squared)
         return (s_mps - u_mps) / g_mps2, s_mps
     # A car that slows down (g < 0) would turn back s^2/(-2 g) beyond the wall. Where that is
-    # no more than round-off, it turns back at the wall, untouched: a graze is a miss.
+    # no more than round-off (graze_m), it turns back just at the wall: a graze is a miss.
     if u_mps > 0 and s_squared >= max(0.0, -2 * g_mps2 * graze_m):
         s_mps = math.sqrt(s_squared)
         return 2 * d_m / (u_mps + s_mps), s_mps
     return math.inf, 0.0
 
-def hops(v_mps: float, g_mps2: float, CR: float, t_s: float, dt_s: float) -> State:
+def hops(v_mps: float, g_mps2: float, CR: float, t_s: float, dt_s: float) -> tuple[float, float]:
     """Take all the whole hops that fit into t_s at once: (time left, speed off the wall then).
 
     A car thrown off a wall into which it is pushed is back after h = 2 v/g, then after CR h,
@@ -127,13 +134,14 @@ def hops(v_mps: float, g_mps2: float, CR: float, t_s: float, dt_s: float) -> Sta
     h/(1 - CR). That is the Zeno point: from then on the car is at rest, speed 0.
     """
     h_s = 2 * v_mps / g_mps2
-    if h_s <= t_s * (1 - CR) or dt_s + h_s == dt_s:  # Zeno point, or hops too short to count
+    if h_s <= t_s * (1 - CR) or dt_s + h_s == dt_s:  # the Zeno point, or a hop lost in rounding
         return 0.0, 0.0
     if h_s > t_s:
         return t_s, v_mps
     if CR == 1:
         return math.fmod(t_s, h_s), v_mps
-    # h (1 - CR^n)/(1 - CR) = t, solved for n; log1p and expm1 stay precise where CR is almost 1
+    # h (1 - CR^n)/(1 - CR) = t, solved for n. log1p(x) is log(1 + x) and expm1(x) is e^x - 1,
+    # without the rounding of 1 + x, which would spoil them where CR is almost 1.
     n = math.floor(math.log1p(-t_s * (1 - CR) / h_s) / math.log(CR))
     n_hops_s = -h_s * math.expm1(n * math.log(CR)) / (1 - CR)
     return max(0.0, t_s - n_hops_s), v_mps * CR**n
@@ -145,7 +153,7 @@ def replay(scene: Scene, start: State, free: State, wall_m: float, dt_s: float) 
     """
     x_m, v_mps = scene.to_track(start[0]), start[1]
     left_m, right_m, a_mps2, CR = scene.left_edge_m, scene.right_edge_m, scene.a_mps2, scene.CR
-    graze_m = 1e-12 * (abs(left_m) + abs(right_m))
+    graze_m = 1e-12 * (abs(left_m) + abs(right_m))  # what thousands of frames' rounding adds up to
     t_s = dt_s  # what is left of the frame
     while True:
         # Which wall comes next? Towards the left one, distances and speeds change their sign.
@@ -155,10 +163,10 @@ def replay(scene: Scene, start: State, free: State, wall_m: float, dt_s: float) 
         if arrival_s > t_s:  # No wall any more: coast. Round-off must not end beyond one.
             x_m, v_mps = exact(x_m, v_mps, a_mps2, t_s)
             return scene.to_track(x_m), v_mps
-        # Go there and bounce.
+        # Go there and bounce: off it at CR s, pushed back into it by g.
         t_s -= arrival_s
         off_mps, g_mps2 = CR * s_mps, side * a_mps2
-        # Pushed back into this wall, and too slow to reach the other one: hop.
+        # Too slow to reach the other wall against that push, v^2/(2 g) <= track: hop.
         if g_mps2 > 0 and off_mps * off_mps <= 2 * g_mps2 * (right_m - left_m):
             t_s, off_mps = hops(off_mps, g_mps2, CR, t_s, dt_s)
             if off_mps == 0:
@@ -223,7 +231,7 @@ class Scene:
     m_to_px: float = number(55.0, math.ulp(0), 1000, "px/m", "zoom")
     width_px: int = number(135, 10, 1000, "px", "characters in a line")
     show_start_mark: bool = choice(False, (False, True), "a . where the car started")
-    show_collision_mark: bool = choice(True, (False, True), "a 0 where it was beyond a wall")
+    show_collision_mark: bool = choice(True, (False, True), "a 0 where a collision was found")
     show_exact_mark: bool = choice(False, (False, True), "an o where it is in truth")
 
     def __post_init__(self) -> None:
@@ -232,7 +240,7 @@ class Scene:
             if not rule["is_ok"](value):
                 hint = f"; nearest: {nearest(str(value), rule['names'])}" if rule["names"] else ""
                 raise ValueError(f"{f.name} must be {rule['allowed']}, not {value!r}{hint}")
-        if round(self.right_edge_m - self.left_edge_m, 9) < 0.01:
+        if round(self.right_edge_m - self.left_edge_m, 9) < 0.01:  # 2.21 - 2.2 is a bit less
             raise ValueError("right_edge_m must be at least 0.01 m to the right of left_edge_m, "
                              f"{self.left_edge_m!r}, not {self.right_edge_m!r}")
         if self.correction == "replay" and self.motion != "exact":
@@ -265,7 +273,8 @@ def step(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> tuple[float, fl
     """
     free_m, free_mps = free = MOTIONS[scene.motion](x_m, v_mps, scene.a_mps2, dt_s)
     on_track = scene.left_edge_m <= free_m <= scene.right_edge_m
-    # A car that turned round in this frame may have met a wall and be back: replay finds out.
+    # With one sign of v at both ends, the car stayed between them all the time. If it turned round
+    # on its way, it may have been beyond a wall and come back: replay finds out.
     if on_track and (scene.correction != "replay" or v_mps * free_mps > 0):
         return free_m, free_mps, None
     settle = CORRECTIONS[scene.correction]
@@ -290,14 +299,15 @@ def render_track(scene: Scene, x_m: float, mark_m: float | None = None,
 
 def details_text(x_m: float, v_mps: float, fps: float, exact_m: float | None = None) -> str:
     """What stands behind the line with d: position, velocity, rate and error."""
-    # The % takes two thirds of an f-string's time, and this is half the time of a frame.
+    # With --fast, half of a frame's time is spent here; an f-string takes half as much again.
     text = "x = %6.2f, v = %5.2f, FPS = %3.0f" % (x_m, v_mps, fps)  # noqa: UP031
     return text if exact_m is None else f"{text}, err = {x_m - exact_m:9.2e}"
 
 def fit(scene: Scene, details: bool) -> Scene:
     """The scene with track and zoom shrunk together until line and details fit the terminal."""
     columns = shutil.get_terminal_size().columns if sys.stdout.isatty() else math.inf
-    widest = details_text(-99, -99, scene.fps_target, 0 if scene.show_exact_mark else None)
+    widest = details_text(min(-99, scene.left_edge_m), min(-99, -abs(scene.v_mps)),
+                          scene.fps_target, 0 if scene.show_exact_mark else None)
     width_px = int(max(10, min(scene.width_px, columns - len(widest) * details)))
     zoom = scene.m_to_px * width_px / scene.width_px
     return replace(scene, width_px=width_px, m_to_px=max(zoom, math.ulp(0)))
@@ -329,7 +339,7 @@ def introduce(scene: Scene, view: Scene, title: str, example: Example, details: 
         say(keys.help())
         try:
             keys.wait_until(clock_s() + example.pause_s)
-        except KeyboardInterrupt:
+        except KeyboardInterrupt:  # read enough
             print("   *\n  * *\n *   *\n  * *\n   *")
     if example.look_for:
         print()
@@ -346,21 +356,17 @@ class Pacer:
         self.deadline_s += self.period_s
         paused_s = keys.wait_until(self.deadline_s)
         self.deadline_s += paused_s
-        length_s = clock_s() - self.began_s - paused_s
-        self.began_s += length_s + paused_s
-        if self.began_s > self.deadline_s + self.period_s:  # missed, and not made up by a burst
-            self.deadline_s = self.began_s
+        now_s = clock_s()
+        length_s = now_s - self.began_s - paused_s
+        self.began_s = now_s
+        if now_s > self.deadline_s + self.period_s:  # missed, and not made up by a burst
+            self.deadline_s = now_s
         return length_s
 
 def by_method(scene: Scene, motion: str = "exact", correction: str = "replay") -> Scene:
     """The scene by another method, by default exactly. (Replay has to start on the track.)"""
     x_m = scene.to_track(scene.x_m) if correction == "replay" else scene.x_m
     return replace(scene, x_m=x_m, motion=motion, correction=correction)
-
-def truth_m(scene: Scene, t_s: float) -> float:
-    """Where the car truly is t_s after the start, by one exact step."""
-    exactly = by_method(scene)
-    return step(exactly, exactly.x_m, scene.v_mps, t_s)[0]
 
 def run(scene: Scene, title: str, example: Example, details: bool, keys: Keys | None,
         frames: int) -> int:
@@ -369,8 +375,10 @@ def run(scene: Scene, title: str, example: Example, details: bool, keys: Keys | 
     Returns the exit status: 0, or 128 + the number of the signal that ended it.
     """
     view, dt_s, fps, stalled = fit(scene, details), 1 / scene.fps_target, scene.fps_target, False
-    x_m, v_mps, mark_m, exact_m = scene.x_m, scene.v_mps, None, None
-    frame, t_s, recent_m = 0, 0.0, deque[float](maxlen=10)
+    exactly, exact_m, exact_mps = by_method(scene), None, scene.v_mps
+    if scene.show_exact_mark:
+        exact_m = exactly.x_m
+    x_m, v_mps, frame, recent_m = scene.x_m, scene.v_mps, 0, deque[float](maxlen=10)
     why, status = "that is the frame limit", 0
     try:
         with keys or nullcontext():
@@ -384,15 +392,16 @@ def run(scene: Scene, title: str, example: Example, details: bool, keys: Keys | 
                         why = keys.quit_reason
                         break
                     fps = 1 / length_s
-                    dt_s = length_s if scene.use_observed_dt else dt_s
+                    if scene.use_observed_dt:
+                        dt_s = length_s
                     stalled = length_s > max(0.15, 1.5 / scene.fps_target)
                 # 2. Move the car and settle any collision. After a stall it holds still.
+                mark_m = None
                 if not stalled:
                     x_m, v_mps, mark_m = step(scene, x_m, v_mps, dt_s)
-                    t_s += dt_s
+                    if exact_m is not None:
+                        exact_m, exact_mps, _ = step(exactly, exact_m, exact_mps, dt_s)
                 # 3. Draw.
-                if scene.show_exact_mark:
-                    exact_m = truth_m(scene, t_s)
                 line = render_track(view, x_m, mark_m, exact_m)
                 if details:
                     line += details_text(x_m, v_mps, fps, exact_m)
@@ -400,7 +409,7 @@ def run(scene: Scene, title: str, example: Example, details: bool, keys: Keys | 
                 if keys:
                     sys.stdout.flush()
                 frame += 1
-                # 4. At rest? Then the last ten positions are, in the mean, those of a wall.
+                # 4. At rest? Taken to be so when the last ten positions average to a wall's.
                 recent_m.append(x_m)
                 if scene.auto_off and frame >= 10:
                     mean_m = sum(recent_m) / 10
@@ -410,7 +419,7 @@ def run(scene: Scene, title: str, example: Example, details: bool, keys: Keys | 
                         break
     except KeyboardInterrupt:
         why = "Ctrl-C was pressed"
-    except Terminated as stop:
+    except Terminated as stop:  # a signal, such as SIGTERM
         why, status = signal.Signals(stop.args[0]).name, 128 + stop.args[0]
     print(f"Stopped after {frame} frame{'s' * (frame != 1)}: {why}.", flush=True)
     return status
@@ -424,9 +433,11 @@ SERIES = {"f": ("forward", "rebound"), "s": ("backward", "surface"),
           "b": ("backward", "rebound"), "e": ("exact", "replay")}
 Points = dict[str, list[tuple[int, float, float]]]  # letter: (fps, error_m, cost_s) at each rate
 
-def truths_m(scene: Scene, rate: int) -> list[float]:
-    """Where the car truly is, rate times a second."""
-    return [truth_m(scene, k / rate) for k in range(1, SPAN_S * rate + 1)]
+def truth_m(scene: Scene, rate: int) -> list[float]:
+    """Where the car truly is, rate times a second: each by one exact step from the start."""
+    exactly = by_method(scene)
+    return [step(exactly, exactly.x_m, exactly.v_mps, k / rate)[0]
+            for k in range(1, SPAN_S * rate + 1)]
 
 def measure(scene: Scene, fps: int, samples_m: list[float]) -> tuple[int, float, float]:
     """(fps, error_m, cost_s): the largest |x - truth| over the samples, one every 0.1 s, and the
@@ -440,11 +451,11 @@ def measure(scene: Scene, fps: int, samples_m: list[float]) -> tuple[int, float,
             xs_m.append(x_m)
         costs_s.append((processor_s() - began_s) / SPAN_S)
     error_m = max(abs(x_m - sample_m) for x_m, sample_m in zip(xs_m, samples_m, strict=True))
-    return fps, error_m, min(costs_s)
+    return fps, error_m, max(min(costs_s), 1e-9)  # 0 where the clock is coarse
 
 def picture(points: Points) -> str:
     """The points as letters on log-log axes, error over cost; + where series meet."""
-    logs = [(math.log10(max(cost_s, 1e-9)), math.log10(max(error_m, 1e-16)), letter)
+    logs = [(math.log10(cost_s), math.log10(max(error_m, 1e-16)), letter)
             for letter, series in points.items() for _, error_m, cost_s in series]
     xs, ys, _ = zip(*logs, strict=True)
     left, right = math.floor(min(xs)), math.floor(max(xs)) + 1
@@ -465,23 +476,41 @@ def picture(points: Points) -> str:
 
 def conclusion(points: Points, pixel_m: float) -> str:
     """What each method needs to stay within one drawn pixel, and what that costs beside exact."""
-    needs, costs_s = {}, {}
+    exact_s = points["e"][0][2]
+    needs = []
     for letter, series in points.items():
-        needs[letter] = f"more than {CHART_FPS[-1]} FPS"
+        enough = f"more than {CHART_FPS[-1]} FPS"
         for fps, error_m, cost_s in reversed(series):  # down to the last rate that will do
             if error_m > pixel_m:
                 break
-            needs[letter], costs_s[letter] = f"{fps} FPS", cost_s
-    for letter in costs_s.keys() - {"e"}:
-        ratio = float(f"{costs_s[letter] / costs_s['e']:.2g}")
-        needs[letter] += f" and {ratio:g} times exact's processor time"
-    *first, last = (f"{' + '.join(SERIES[letter])} needs {needs[letter]}" for letter in SERIES)
-    return (f"To stay within one drawn pixel of the truth ({1000 * pixel_m:.3g} mm), "
-            f"{', '.join(first)}, and {last}.")
+            enough = f"{fps} FPS at {float(f'{cost_s / exact_s:.2g}'):g} times that time"
+        needs.append(f"{' + '.join(SERIES[letter])} needs {enough}")
+    return (f"Exact + replay at {CHART_FPS[0]} FPS takes {1e6 * exact_s:.2g} us of processor time "
+            f"for a simulated second. To stay within one drawn pixel of the truth "
+            f"({1000 * pixel_m:.3g} mm), {', '.join(needs[:-1])}, and {needs[-1]}.")
+
+def progress(text: str) -> None:
+    """On a terminal, show a line that the next one replaces."""
+    if sys.stdout.isatty():
+        print(f"\r{text:50}\r", end="", flush=True)
+
+def new_figure(file: str) -> Any:
+    """An empty picture, by matplotlib. Raises ValueError if it could not be saved as that file."""
+    try:
+        from matplotlib.figure import Figure
+        figure = Figure(figsize=(8, 5), layout="constrained")
+        figure.savefig(io.BytesIO(), format=Path(file).suffix[1:])
+    except ImportError:
+        raise ValueError("--save needs matplotlib: python -m pip install '.[chart]'") from None
+    except ValueError as fault:
+        raise ValueError(f"--save {file!r}: {fault}") from None
+    if not Path(file).parent.is_dir():
+        raise ValueError(f"--save {file!r}: there is no such folder")
+    return figure
 
 def chart(scene: Scene, title: str, file: str | None) -> None:
     """Measure each method at each rate; show a picture, a table and what follows from them."""
-    samples_m = truths_m(scene, 10)
+    samples_m = truth_m(scene, 10)
     points: Points = {letter: [] for letter in SERIES}
     for letter, method in SERIES.items():
         for fps in CHART_FPS:
@@ -507,23 +536,6 @@ def chart(scene: Scene, title: str, file: str | None) -> None:
         axes.legend()
         figure.savefig(file)
         print("\nThe chart is saved.")
-
-def progress(text: str) -> None:
-    """On a terminal, show a line that the next one replaces."""
-    if sys.stdout.isatty():
-        print(f"\r{text:50}\r", end="", flush=True)
-
-def new_figure(file: str) -> Any:
-    """An empty picture, saved already. Raises ValueError if that cannot be."""
-    try:
-        from matplotlib.figure import Figure
-        figure = Figure(figsize=(8, 5), layout="constrained")
-        figure.savefig(file)
-    except ImportError:
-        raise ValueError("--save needs matplotlib: python -m pip install '.[chart]'") from None
-    except (ValueError, OSError) as fault:
-        raise ValueError(f"--save {file!r}: {fault}") from None
-    return figure
 
 
 # ==== 8. Where methods fail: the stability map ==================================================
@@ -554,7 +566,8 @@ def verdict(scene: Scene, fps: int, samples_m: list[float]) -> str:
             found.add("G")
         if frame % frames_a_sample == 0:
             error_m = abs(x_m - samples_m[frame // frames_a_sample - 1])
-            found.add("o" if error_m > 1 / scene.m_to_px else ".")
+            if error_m > 1 / scene.m_to_px:
+                found.add("o")
     if min(beyond_m) > 0 or max(beyond_m) < 0:
         found.add("S")
     return next(letter for letter in VERDICTS if letter in found)
@@ -563,11 +576,12 @@ def stability(scene: Scene, title: str) -> None:
     """Print the map: a row a method, a column a frame rate, a letter for what happened there."""
     print(f"{title}\nStability, {SPAN_S} simulated seconds\n")
     print(f"{'FPS':20}" + "".join(f"{fps:6}" for fps in MAP_FPS))
-    samples_m = {fps: truths_m(scene, min(fps, 10)) for fps in MAP_FPS}
-    for method in product(MOTIONS, CORRECTIONS):
-        if method[1] != "replay" or method[0] == "exact":
-            row = (verdict(by_method(scene, *method), fps, samples_m[fps]) for fps in MAP_FPS)
-            print(f"{' + '.join(method):20}{''.join(f'{letter:>6}' for letter in row)}", flush=True)
+    samples_m = {fps: truth_m(scene, min(fps, 10)) for fps in MAP_FPS}
+    for motion, correction in product(MOTIONS, CORRECTIONS):
+        if correction != "replay" or motion == "exact":
+            method = by_method(scene, motion, correction)
+            row = (verdict(method, fps, samples_m[fps]) for fps in MAP_FPS)
+            print(f"{f'{motion} + {correction}':20}{''.join(f'{letter:>6}' for letter in row)}")
     print("\n" + "\n".join(f"{letter}  {meaning}" for letter, meaning in VERDICTS.items()))
 
 
@@ -602,13 +616,15 @@ def parse(argv: list[str] | None) -> argparse.Namespace:
     if unknown:
         hint = nearest(unknown[0], ("--fast", "--frames", "--save", "--help"))
         raise ValueError(f"there is no option {unknown[0]!r}; nearest: {hint}")
-    command = options.words[0] if options.words[:1] in (["chart"], ["stability"]) else "run"
+    command, words = "run", options.words
+    if words and words[0] in ("chart", "stability"):
+        command, *words = words
     number, details, settings = None, False, {}
-    for word in options.words[command != "run":]:
+    for word in words:
         name, equals, text = word.partition("=")
         if equals and name not in SETTINGS:
             raise ValueError(f"there is no setting {name!r}; nearest: {nearest(name, SETTINGS)}")
-        if name in settings:
+        if equals and name in settings:
             raise ValueError(f"{name} is set twice")
         if equals:
             try:
@@ -629,12 +645,13 @@ def parse(argv: list[str] | None) -> argparse.Namespace:
         raise ValueError(f"d, --fast and --frames do not go with {command}")
     if command != "chart" and options.save is not None:
         raise ValueError("--save FILE goes with chart only")
-    number = number if number is not None else 0 if command == "run" else 10
+    if number is None:
+        number = 0 if command == "run" else 10
     vars(options).update(command=command, number=number, details=details, settings=settings)
     return options
 
 def fail(message: object) -> int:
-    """Tell in one line what is wrong; the exit status for that."""
+    """Tell in one line what is wrong, and return the exit status 2."""
     print(f"airtrack.py: error: {message}", file=sys.stderr)
     return 2
 
@@ -648,13 +665,13 @@ def main(argv: list[str] | None = None) -> int:
         scene = Scene(**example.settings | options.settings)
         if options.save is not None:
             new_figure(options.save)  # what is wrong with FILE is wrong before the measuring too
-    except SystemExit:  # argparse, after -h
-        return 0
+    except SystemExit as done:  # argparse, after -h
+        return int(done.code or 0)
     except (ValueError, argparse.ArgumentError) as fault:
         return fail(fault)
     try:
         title = f"Example {options.number}: {example.title}"
-        if options.number not in EXAMPLES:
+        if example is OWN_SCENE:
             title = example.title
             say(f"There is no example {options.number} (there are {min(EXAMPLES)} to "
                 f"{max(EXAMPLES)}): the default scene runs.")
@@ -671,7 +688,7 @@ def main(argv: list[str] | None = None) -> int:
     except OSError as fault:
         # Nothing more can be printed, not even at exit. Where the reader has gone (| head), fine.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 0 if isinstance(fault, BrokenPipeError) else fail(f"cannot print: {fault.strerror}")
+        return 0 if isinstance(fault, BrokenPipeError) else fail(f"cannot write: {fault.strerror}")
 
 
 if __name__ == "__main__":

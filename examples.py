@@ -257,7 +257,7 @@ class Window:
         """Say on the window's face and in its caption which keys do what now."""
         if not self.why_shut:
             words = "PAUSED   p: go on   x: quit" if paused else "running   p: pause   x: quit"
-            self.pygame.display.set_caption(f"air track {words}")
+            self.pygame.display.set_caption(" ".join(words.split()))  # no room for more
             surface = self.pygame.display.get_surface()
             surface.fill("darkorange" if paused else "white")
             text = self.pygame.font.Font(None, 22).render(words, True, "black")

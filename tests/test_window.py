@@ -91,8 +91,8 @@ def test_a_key_in_the_window_quits(key: str, why: str, display: str) -> None:
 def test_a_key_in_the_window_pauses_and_resumes_and_the_caption_says_so(
         key: str, display: str) -> None:
     with run(display, "0") as shown:
-        for state in ("running   p: pause   x: quit", "PAUSED   p: go on   x: quit",
-                      "running   p: pause   x: quit"):
+        for state in ("running p: pause x: quit", "PAUSED p: go on x: quit",
+                      "running p: pause x: quit"):
             shown.shows(state)
             shown.press(key)
         shown.press("x")

@@ -1,0 +1,68 @@
+"""Makes the README's moving pictures from the program's own output: python tests/make_pictures.py
+
+Each is a terminal in which the film scrolls, as an animated GIF in .github/. Needs matplotlib (of
+the test extra), for its Pillow and its monospaced font.
+"""
+
+import subprocess
+import sys
+from pathlib import Path
+
+from matplotlib.font_manager import findfont
+from PIL import Image, ImageDraw, ImageFont
+
+HERE = Path(__file__).resolve().parent.parent
+SIZE = ["m_to_px=36", "width_px=88"]  # what a README's width has room for
+FRAMES, ROWS, LINE_PX, LETTER_PX, EDGE_PX = 80, 18, 15, 7, 8
+PAPER, INK = (24, 24, 27), {"*": (250, 204, 21), "o": (74, 222, 128), "0": (248, 113, 113)}
+GREY = (190, 190, 196)
+FONT = ImageFont.truetype(findfont("DejaVu Sans Mono"), 12)
+
+
+def film(number: int) -> list[str]:
+    """The frames of an example, with details."""
+    words = [str(number), "d", *SIZE, "--fast", "--frames", str(FRAMES)]
+    out = subprocess.run([sys.executable, str(HERE / "airtrack.py"), *words], text=True, check=True,
+                         capture_output=True).stdout
+    return [line for line in out.splitlines() if "FPS = " in line]
+
+
+def screen(command: str, lines: list[str], columns: int) -> Image.Image:
+    """The terminal when the last of the lines has just been printed."""
+    size = columns * LETTER_PX + 2 * EDGE_PX, ROWS * LINE_PX + 2 * EDGE_PX
+    picture = Image.new("RGB", size, PAPER)
+    draw = ImageDraw.Draw(picture)
+    for row, line in enumerate([f"$ {command}", "", *lines][-ROWS:]):
+        track = line.find("x =")  # marks have their colours on the track alone
+        for column, letter in enumerate(line):
+            colour = INK.get(letter, GREY) if column < track else GREY
+            draw.text((EDGE_PX + column * LETTER_PX, EDGE_PX + row * LINE_PX), letter, colour, FONT)
+    return picture
+
+
+def shades() -> Image.Image:
+    """A palette of every ink, thinned out towards the paper as at a letter's edges."""
+    colours = [round(paper + (ink - paper) * step / 5)
+               for inks in (GREY, *INK.values()) for step in range(6)
+               for paper, ink in zip(PAPER, inks, strict=True)]
+    palette = Image.new("P", (1, 1))
+    palette.putpalette(colours)
+    return palette
+
+
+def main() -> None:
+    for number, name in ((10, "example-10"), (16, "example-16")):
+        lines, command = film(number), " ".join(["python airtrack.py", str(number), "d", *SIZE])
+        columns = max(map(len, lines))
+        screens = [screen(command, lines[:count], columns) for count in range(1, FRAMES + 1)]
+        palette = shades()
+        frames = [picture.quantize(palette=palette, dither=Image.Dither.NONE)
+                  for picture in screens]
+        file = HERE / ".github" / f"{name}.gif"
+        frames[0].save(file, save_all=True, append_images=frames[1:], loop=0,
+                       duration=[100] * (FRAMES - 1) + [2000], optimize=False)
+        print(f"{file.relative_to(HERE)}: {FRAMES} frames, {file.stat().st_size // 1000} kB")
+
+
+if __name__ == "__main__":
+    main()
