@@ -182,11 +182,9 @@ def number(default: float, low: float, high: float, unit: str, meaning: str) -> 
     """A setting that is a number from low to high, and a whole one if its default is."""
     kinds = (int,) if isinstance(default, int) else (int, float)
     lowest = "above 0," if 0 < low < 1e-300 else f"from {low}"
+    allowed = f"{'' if float in kinds else 'whole, '}{lowest} to {high} {unit}".rstrip()
     return field(default=default, metadata={
-        "meaning": meaning,
-        "allowed": f"{'' if float in kinds else 'whole, '}{lowest} to {high} {unit}".rstrip(),
-        "names": (),
-        "read": type(default),
+        "meaning": meaning, "allowed": allowed, "names": (), "read": type(default),
         "is_ok": lambda value: (isinstance(value, kinds) and not isinstance(value, bool)
                                 and low <= value <= high)})
 
@@ -194,8 +192,7 @@ def choice(default: object, values: Iterable[Any], meaning: str) -> Any:
     """A setting that is one of a few values."""
     named = {str(value): value for value in values}
     return field(default=default, metadata={
-        "meaning": meaning,
-        "allowed": " or ".join(", ".join(named).rsplit(", ", 1)),
+        "meaning": meaning, "allowed": " or ".join(", ".join(named).rsplit(", ", 1)),
         "names": tuple(named),
         "read": lambda text: named.get(text, named.get(text.capitalize(), text)),
         "is_ok": lambda value: value in named.values()})
@@ -375,9 +372,8 @@ def run(scene: Scene, title: str, example: Example, details: bool, keys: Keys | 
     Returns the exit status: 0, or 128 + the number of the signal that ended it.
     """
     view, dt_s, fps, stalled = fit(scene, details), 1 / scene.fps_target, scene.fps_target, False
-    exactly, exact_m, exact_mps = by_method(scene), None, scene.v_mps
-    if scene.show_exact_mark:
-        exact_m = exactly.x_m
+    exactly = by_method(scene)
+    exact_m, exact_mps = exactly.x_m if scene.show_exact_mark else None, scene.v_mps
     x_m, v_mps, frame, recent_m = scene.x_m, scene.v_mps, 0, deque[float](maxlen=10)
     why, status = "that is the frame limit", 0
     try:
@@ -647,7 +643,10 @@ def parse(argv: list[str] | None) -> argparse.Namespace:
         raise ValueError("--save FILE goes with chart only")
     if number is None:
         number = 0 if command == "run" else 10
-    vars(options).update(command=command, number=number, details=details, settings=settings)
+    example = EXAMPLES.get(number, OWN_SCENE)
+    vars(options).update(command=command, number=number, example=example,
+                         details=details or example.details,
+                         scene=Scene(**example.settings | settings))
     return options
 
 def fail(message: object) -> int:
@@ -661,8 +660,6 @@ def main(argv: list[str] | None = None) -> int:
         return fail("there is no standard output to draw on")
     try:
         options = parse(argv)
-        example = EXAMPLES.get(options.number, OWN_SCENE)
-        scene = Scene(**example.settings | options.settings)
         if options.save is not None:
             new_figure(options.save)  # what is wrong with FILE is wrong before the measuring too
     except SystemExit as done:  # argparse, after -h
@@ -670,18 +667,18 @@ def main(argv: list[str] | None = None) -> int:
     except (ValueError, argparse.ArgumentError) as fault:
         return fail(fault)
     try:
-        title = f"Example {options.number}: {example.title}"
-        if example is OWN_SCENE:
-            title = example.title
+        title = f"Example {options.number}: {options.example.title}"
+        if options.example is OWN_SCENE:
+            title = OWN_SCENE.title
             say(f"There is no example {options.number} (there are {min(EXAMPLES)} to "
                 f"{max(EXAMPLES)}): the default scene runs.")
-        if options.command == "chart":
-            chart(scene, title, options.save)
-        elif options.command == "stability":
-            stability(scene, title)
-        else:
-            return run(scene, title, example, options.details or example.details,
+        if options.command == "run":
+            return run(options.scene, title, options.example, options.details,
                        None if options.fast else Keys(), int(options.frames or 50_000))
+        if options.command == "chart":
+            chart(options.scene, title, options.save)
+        else:
+            stability(options.scene, title)
         return 0
     except KeyboardInterrupt:
         return 130
