@@ -333,8 +333,8 @@ def introduce(scene: Scene, view: Scene, title: str, example: Example, details: 
         if keys.window.why_shut:
             say(f"No window for the keys: {keys.window.why_shut}.")
     if example.look_for and keys:
-        say(keys.help())
         try:
+            say(keys.help())
             keys.wait_until(clock_s() + example.pause_s)
         except KeyboardInterrupt:  # read enough
             print("   *\n  * *\n *   *\n  * *\n   *")

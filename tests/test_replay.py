@@ -2,7 +2,7 @@
 
 import math
 import random
-from decimal import Decimal
+from decimal import Decimal, localcontext
 
 import pytest
 from hypothesis import assume, given, settings
@@ -200,11 +200,21 @@ def test_elastic_hops_come_back_after_any_number_of_them() -> None:
         assert v_mps == pytest.approx(0, abs=1e-11)
 
 
-def test_almost_elastic_hops_are_almost_elastic() -> None:
-    scene = exact(x_m=0.25, v_mps=1e-3, a_mps2=-2, CR=1 - 1e-12)
-    x_m, v_mps, _ = step(scene, 0.25, 1e-3, 1000.5e-3)
-    assert x_m == pytest.approx(0.25 + 1e-6 / 4, abs=1e-12)
-    assert v_mps == pytest.approx(0, abs=1e-9)
+@pytest.mark.parametrize("CR", [
+    0.9999, 1 - 1e-7 / 3, 1 - 1e-10 / 3, 1 - 1e-12, math.nextafter(1, 0)])
+@pytest.mark.parametrize("count", [1, 2, 7, 8, 999, 10_000])
+def test_whole_hops_last_as_long_as_the_geometric_series_in_50_digits(
+        CR: float, count: int) -> None:
+    v_mps = 1e-3
+    scene = exact(x_m=0.25, v_mps=v_mps, a_mps2=-2, CR=CR)
+    with localcontext(prec=50):
+        ratio, hop_s = Decimal(CR), Decimal(v_mps)  # a hop lasts 2 v/a = v at 2 m/s^2
+        power = ratio**count
+        to_the_next_top_s = hop_s * (1 - power) / (1 - ratio) + hop_s * power / 2
+        top_m = float((hop_s * power) ** 2 / 4)
+    x_m, v_mps, _ = step(scene, 0.25, v_mps, float(to_the_next_top_s))
+    assert v_mps == pytest.approx(0, abs=1e-12)
+    assert x_m - 0.25 == pytest.approx(top_m, abs=1e-15)
 
 
 @pytest.mark.parametrize("CR", [0.3, 0.999, 1 - 1e-9, 1.0])
