@@ -106,7 +106,7 @@ def test_the_sentence_asks_for_a_rate_from_which_on_the_error_stays_small() -> N
         "Exact + replay at 10 FPS takes 20 us of processor time for a simulated second. To stay "
         "within one drawn pixel of the truth (50 mm), forward + rebound needs 100 FPS at 5 times "
         "that time, backward + surface needs more than 3840 FPS, backward + rebound needs more "
-        "than 3840 FPS, and exact + replay needs 10 FPS at 1 times that time.")
+        "than 3840 FPS, and exact + replay needs 10 FPS.")
 
 
 @pytest.mark.parametrize("suffix", ["png", "svg", "pdf"])

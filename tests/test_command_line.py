@@ -197,7 +197,8 @@ def test_a_full_disk_is_one_sentence() -> None:
             done = subprocess.run([*COMMAND, *words.split()], stdout=full, text=True,
                                   stderr=subprocess.PIPE, env=environment(), check=False)
         assert done.returncode == 2
-        assert done.stderr == "airtrack.py: error: cannot write: No space left on device\n"
+        assert done.stderr == ("airtrack.py: error: cannot write: "
+                               "[Errno 28] No space left on device\n")
 
 
 def test_without_pygame_one_line_says_so_and_the_film_runs(tmp_path: Path) -> None:

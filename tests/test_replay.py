@@ -172,6 +172,18 @@ def test_a_graze_is_a_miss_and_20_s_of_them_keep_time(fps: float) -> None:
         x_m, v_mps, _ = step(scene, x_m, v_mps, 1 / fps)
         since_top_s = math.remainder(frame / fps, 2 * fall_s)
         assert x_m == pytest.approx(2.2 - since_top_s**2, abs=1e-9)
+        assert 0.25 <= x_m <= 2.2
+
+
+def test_a_frame_that_ends_at_the_wall_to_the_last_digit_does_not_end_beyond_it() -> None:
+    rng = random.Random("to the last digit")
+    for _ in range(2000):
+        scene = exact(x_m=rng.uniform(0.25, 2.2), v_mps=rng.uniform(0.1, 5),
+                      a_mps2=rng.uniform(0, 5), CR=rng.choice([0.5, 1.0]))
+        speed_mps = math.sqrt(scene.v_mps**2 + 2 * scene.a_mps2 * (2.2 - scene.x_m))
+        frame_s = 2 * (2.2 - scene.x_m) / (scene.v_mps + speed_mps)
+        for dt_s in (frame_s, frame_s * (1 - 1e-16), frame_s * (1 - 3e-16), frame_s * (1 + 3e-16)):
+            assert step(scene, scene.x_m, scene.v_mps, dt_s)[0] <= 2.2
 
 
 @pytest.mark.parametrize("v_mps", [1e-300, 1e-100, 1e-20])
