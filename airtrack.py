@@ -314,8 +314,8 @@ def introduce(scene: Scene, view: Scene, title: str, example: Example, details: 
     """Say what is to be seen and which keys there are, and leave time to read it."""
     if example.look_for:  # the one-pager has no header and no pause
         say(title)
-        say(", ".join(f"{f.name}={getattr(scene, f.name)}" for f in fields(scene))
-            + f", details={details}")
+        settings = ", ".join(f"{f.name}={getattr(scene, f.name)}" for f in fields(scene))
+        say(f"{settings}; details {'on' if details else 'off'}")
         print()
         say(example.look_for)
     if view.width_px < scene.width_px:
@@ -327,7 +327,7 @@ def introduce(scene: Scene, view: Scene, title: str, example: Example, details: 
             say(f"No window for the keys: {keys.window.why_shut}.")
     if example.look_for and keys:
         try:
-            say(keys.help())
+            say(f"{keys.help()} The film begins in {example.pause_s:g} s, with Ctrl-C at once.")
             keys.wait_until(clock_s() + example.pause_s)
         except KeyboardInterrupt:  # read enough
             print("   *\n  * *\n *   *\n  * *\n   *")
@@ -447,7 +447,7 @@ def picture(points: Points) -> str:
     xs, ys, _ = zip(*logs, strict=True)
     left, right = math.floor(min(xs)), math.floor(max(xs)) + 1
     bottom, top = math.floor(min(ys)), math.floor(max(ys)) + 1
-    wide, high = 72 // (right - left), max(1, 18 // (top - bottom))  # of a power of ten
+    wide, high = 66 // (right - left), max(1, 18 // (top - bottom))  # of a power of ten
     grid = [[" "] * (wide * (right - left) + 1) for _ in range(high * (top - bottom) + 1)]
     for x, y, letter in logs:
         row, column = round((top - y) * high), round((x - left) * wide)
@@ -459,7 +459,7 @@ def picture(points: Points) -> str:
     ticks = "".join(f"{f'1e{x:+03d}':{wide}}" for x in range(left, right + 1))
     return "\n".join([*lines, " " * 9 + "+" + "-" * (wide * (right - left) + 1),
                       " " * 8 + ticks.rstrip(),
-                      f"{'processor time (s) for a simulated second':>82}"])
+                      f"{'processor time (s) for a simulated second':>76}"])
 
 def conclusion(points: Points, pixel_m: float) -> str:
     """What each method needs to stay within one drawn pixel, and what that costs beside exact."""
@@ -507,12 +507,12 @@ def chart(scene: Scene, title: str, file: str | None) -> None:
             points[letter].append(measure(by_method(scene, *method), fps, samples_m))
     progress("")
     print(f"{title}\nSpeed against accuracy, {SPAN_S} simulated seconds\n\n{picture(points)}\n")
-    names = [f"{letter}: {' + '.join(method)}" for letter, method in SERIES.items()]
-    print(" " * 5 + "".join(f"{name:>23}" for name in names))
-    print("  FPS" + f"{'error (m)':>13}{'cost (s)':>10}" * len(SERIES))
+    names = [f"{letter} {'+'.join(method)}" for letter, method in SERIES.items()]
+    print("    " + "".join(f"{name:>19}" for name in names))
+    print(" FPS" + f"{'error m':>10}{'cost s':>9}" * len(SERIES))
     for row in zip(*points.values(), strict=True):
-        cells = (f"{error_m:13.1e}{cost_s:10.1e}" for _, error_m, cost_s in row)
-        print(f"{row[0][0]:5}{''.join(cells)}")
+        cells = (f"{error_m:10.1e}{cost_s:9.1e}" for _, error_m, cost_s in row)
+        print(f"{row[0][0]:4}{''.join(cells)}")
     print()
     say(conclusion(points, 1 / scene.m_to_px))
     if file:
@@ -524,7 +524,7 @@ def chart(scene: Scene, title: str, file: str | None) -> None:
                  ylabel=f"largest error in {SPAN_S} s (m)")
         axes.legend()
         figure.savefig(file)
-        print("\nThe chart is saved.")
+        print(f"\nSaved as {file}.")
 
 
 # ==== 8. Where methods fail: the stability map ==================================================
@@ -580,6 +580,7 @@ USAGE = """python airtrack.py [EXAMPLE] [d] [NAME=VALUE ...] [--fast] [--frames 
        python airtrack.py chart [EXAMPLE] [NAME=VALUE ...] [--save FILE]
        python airtrack.py stability [EXAMPLE] [NAME=VALUE ...]"""
 SETTINGS = {f.name: f for f in fields(Scene)}
+OPTIONS = ("--fast", "--frames", "--save", "--help")
 
 def help_text() -> str:
     """The examples and the settings, for -h."""
@@ -603,7 +604,7 @@ def parse(argv: list[str] | None) -> argparse.Namespace:
     parser.add_argument("--save", metavar="FILE", help="draw the chart into a .png, .svg, ... too")
     options, unknown = parser.parse_known_intermixed_args(argv)
     if unknown:
-        hint = nearest(unknown[0], ("--fast", "--frames", "--save", "--help"))
+        hint = nearest(unknown[0], (*OPTIONS, "d"))
         raise ValueError(f"there is no option {unknown[0]!r}; nearest: {hint}")
     command, words = "run", options.words
     if words and words[0] in ("chart", "stability"):
@@ -612,7 +613,8 @@ def parse(argv: list[str] | None) -> argparse.Namespace:
     for word in words:
         name, equals, text = word.partition("=")
         if equals and name not in SETTINGS:
-            raise ValueError(f"there is no setting {name!r}; nearest: {nearest(name, SETTINGS)}")
+            hint = nearest(name, (*SETTINGS, *OPTIONS))
+            raise ValueError(f"there is no setting {name!r}; nearest: {hint}")
         if equals and name in settings:
             raise ValueError(f"{name} is set twice")
         if equals:
@@ -622,12 +624,15 @@ def parse(argv: list[str] | None) -> argparse.Namespace:
                 settings[name] = text  # Scene will say what it should have been
         elif word == "d":
             details = True
-        elif re.fullmatch("[-+]?[0-9]{1,18}", word) and number is None:
+        elif re.fullmatch("[-+]?[0-9]{1,18}", word):
+            if number is not None:
+                raise ValueError(f"one EXAMPLE at a time, not both {number} and {word}")
             number = int(word)
         else:
-            hint = nearest(word, ("d", *map(str, EXAMPLES), "chart", "stability", *SETTINGS))
-            raise ValueError(f"{word!r} is no EXAMPLE (one number, {min(EXAMPLES)} to "
-                             f"{max(EXAMPLES)}), not d, not NAME=VALUE; nearest: {hint}")
+            names = ["d", *map(str, EXAMPLES), "chart", "stability"]
+            names += [f"{setting}=VALUE" for setting in SETTINGS]
+            raise ValueError(f"{word!r} is no EXAMPLE ({min(EXAMPLES)} to {max(EXAMPLES)}), "
+                             f"not d, not NAME=VALUE; nearest: {nearest(word, names)}")
     if options.frames is not None and not re.fullmatch("0*[1-9][0-9]{0,17}", options.frames):
         raise ValueError(f"--frames N must be a whole number from 1 up, not {options.frames!r}")
     if command != "run" and (details or options.fast or options.frames):
@@ -663,8 +668,8 @@ def main(argv: list[str] | None = None) -> int:
         title = f"Example {options.number}: {options.example.title}"
         if options.example is OWN_SCENE:
             title = OWN_SCENE.title
-            say(f"There is no example {options.number} (there are {min(EXAMPLES)} to "
-                f"{max(EXAMPLES)}): the default scene runs.")
+            say(f"There is no example {options.number} (they are {min(EXAMPLES)} to "
+                f"{max(EXAMPLES)}): this is the default scene, with your settings.")
         if options.command == "run":
             return run(options.scene, title, options.example, options.details,
                        None if options.fast else Keys(), int(options.frames or 50_000))

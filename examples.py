@@ -56,7 +56,7 @@ EXAMPLES = {
     2: Example("No correction", {
         "x_m": 1.65, "v_mps": 2.7, "CR": 1.0, "correction": "none", "show_collision_mark": False},
         "Nothing puts the car back on the track after a collision: look how it is drawn inside the "
-        "walls, up to 4 columns beyond them. It is elastic (CR = 1) and nothing pulls at it, so it "
+        "walls, up to 8 cm beyond them. It is elastic (CR = 1) and nothing pulls at it, so it "
         "comes back out as fast as it went in, and never stops: press x."),
     3: Example("No correction, and stuck", {
         "x_m": 2.0, "a_mps2": -1.5, "CR": 0.6, "correction": "none", "auto_off": False,
@@ -82,19 +82,19 @@ EXAMPLES = {
         "the run ends after 236 frames again."),
     7: Example("Elastic, small steps", ELASTIC | {"fps_target": 240.0},
         "No speed is lost in a bounce, so the car should come back to the start mark, the dot at "
-        "2 m, every time. At 240 FPS it does, or turns at 1.99 m, one column short of it."),
+        "2 m, every time. At 240 FPS it does, or turns at 1.99 m, a centimetre short of it."),
     8: Example("Elastic, large steps", COARSE,
         "Example 7 at 10 FPS. The car moves as much as 0.26 m in a frame, and the correction does "
-        "not know when in the frame the bounce was. After the first bounce it turns at 1.88 m, 7 "
-        "columns short of the start mark; after the second one, whose error undoes the first's, "
+        "not know when in the frame the bounce was. After the first bounce it turns at 1.88 m, "
+        "12 cm short of the start mark; after the second one, whose error undoes the first's, "
         "at the mark; and so on by turns."),
     9: Example("Elastic, large and irregular steps", COARSE | IRREGULAR,
         "Example 8 with the length that each frame really had (the observed dt). No two of them "
         "are quite the same, so neither are the bounces, nor any two runs of this example."),
     10: Example("The exact solution", EXACT,
-        "Example 8 again, at the same 10 FPS, but moved by the formulas of kinematics, and each "
-        "bounce worked out at its own moment. The car comes back to the start mark, the dot at "
-        "2 m, every time."),
+        "Pulled to the left, elastic, at only 10 FPS. The car is moved by the formulas of "
+        "kinematics, and each bounce worked out at its own moment. So it comes back to the start "
+        "mark, the dot at 2 m, every time; in example 8, by Euler's method, it does not."),
     11: Example("The exact solution, irregular steps", EXACT | IRREGULAR,
         "Example 10 with the length that each frame really had. The exact solution does not depend "
         "on how the time is cut into frames: the car comes back to the start mark all the same."),
@@ -105,20 +105,20 @@ EXAMPLES = {
         "motion": "forward", "show_exact_mark": True},
         "Example 8 by forward Euler. Each step adds a^2 dt^2/2 = 0.02 m^2/s^2 to the car's energy "
         "v^2/2 - a x. So it climbs past its start mark after the first bounce, and hits the far "
-        "wall in frame 24. The o is where the exact solution has the car; d shows the error."),
+        "wall in frame 24. The o is where the exact solution has the car; the error is with d."),
     14: Example("The rebound throws the car through the walls", QUICK,
         "The car moves 4 m a frame, on a track of 1.95 m. The rebound puts it as far on the other "
         "side of the wall as it was beyond it, and that is beyond the far wall: from the first "
         "frame on it is outside, 4.1 m further every other frame, and neither * nor 0 is in the "
-        "picture. Use d to see x. Press x to quit."),
+        "picture. With d there is its position. Press x to quit."),
     15: Example("The same, settled wall by wall", QUICK | {
         "motion": "exact", "correction": "replay"},
         "Example 14 by the exact solution. In a frame of 4 m the car meets both walls, goes 3.9 m "
         "from wall to wall and back, and is 0.1 m from where it was: it seems to creep along the "
         "track. It never stops: press x."),
     16: Example("Example 8 beside the truth", COARSE | {"show_exact_mark": True},
-        "Watch the * leave the o, which is where the exact solution has the car. They are a "
-        "column apart in frame 2, and as much as 0.9 m within 20 s; d shows the error."),
+        "Watch the * leave the o, which is where the exact solution has the car. They are 2 cm "
+        "apart in frame 2, and as much as 0.9 m within 20 s; the error is with d."),
 }
 OWN_SCENE = Example("Your own scene", {},
     "A car at rest, until you set it going: python airtrack.py 99 x_m=1 v_mps=3 CR=0.9 d, for "
@@ -132,6 +132,7 @@ if sys.platform == "win32":
         """The keys of a Windows console, which msvcrt gives one by one and unechoed."""
 
         is_ours = False
+        was_suspended = False
 
         def take(self) -> None:
             """Use the console, if there is one."""
@@ -157,24 +158,32 @@ else:
     SEQUENCE = re.compile(r"\x1b+(\[[0-?]*[ -/]*[@-~]|O?[^\x1b])")
     UNFINISHED = re.compile(r"\x1b(\[[0-?]*[ -/]*|O)?$")
 
+    def is_in_foreground() -> bool:
+        """Whether the terminal is this process's to read from and to set."""
+        try:
+            return os.tcgetpgrp(0) == os.getpgrp()
+        except OSError:  # not its controlling terminal
+            return False
+
     class Terminal:
         """The keys of a terminal, one by one, unechoed; it is left as it was found."""
 
         is_ours = False
+        was_suspended = False
 
         def take(self) -> None:
             """Use the terminal, if there is one and this process is in its foreground.
 
             With the output in a pipe, the terminal is left to the program at the pipe's end.
             """
-            if os.isatty(0) and os.isatty(1) and os.tcgetpgrp(0) == os.getpgrp():
+            if os.isatty(0) and os.isatty(1) and is_in_foreground():
                 self.found = termios.tcgetattr(0)
                 self.is_ours = True
                 self.handlers = [(number, signal.signal(number, handler)) for number, handler in (
-                    (signal.SIGTSTP, self.suspend), (signal.SIGCONT, self.set_mode))]
+                    (signal.SIGTSTP, self.suspend), (signal.SIGCONT, self.resume))]
                 self.set_mode()
 
-        def set_mode(self, *_: object) -> None:
+        def set_mode(self) -> None:
             """Keys without waiting for Enter, without echo, and with Ctrl-S as a key."""
             mode = termios.tcgetattr(0)
             mode[0] &= ~termios.IXON
@@ -187,11 +196,16 @@ else:
                 termios.tcsetattr(0, termios.TCSANOW, self.found)
 
         def suspend(self, *_: object) -> None:
-            """Ctrl-Z: lend the terminal to the shell until fg, when SIGCONT calls set_mode."""
+            """Ctrl-Z: lend the terminal to the shell until fg, when SIGCONT calls resume."""
             self.restore_mode()
             signal.signal(signal.SIGTSTP, signal.SIG_DFL)
             signal.raise_signal(signal.SIGTSTP)  # the process stops here
             signal.signal(signal.SIGTSTP, self.suspend)
+
+        def resume(self, *_: object) -> None:
+            """After a suspension: take the terminal again."""
+            self.set_mode()
+            self.was_suspended = True
 
         def give_back(self) -> None:
             """Leave the terminal as it was found."""
@@ -227,9 +241,11 @@ class Window:
 
     def open(self) -> None:
         """Open the window, or set why_shut. Only the display is initialised: no sound."""
-        if sys.platform == "linux" and not {"DISPLAY", "WAYLAND_DISPLAY"} & set(os.environ):
-            self.why_shut = "there is no display"  # SDL would find out, but not without a noise
-            return
+        if sys.platform == "linux" and "WAYLAND_DISPLAY" not in os.environ:
+            if "DISPLAY" not in os.environ:
+                self.why_shut = "there is no display"
+                return
+            os.environ.setdefault("SDL_VIDEODRIVER", "x11")  # trying Wayland prints an error
         os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
         os.environ.setdefault("SDL_VIDEO_WINDOW_POS", "60,60")  # not over the film's newest line
         try:
@@ -344,17 +360,24 @@ class Keys:
 
     def poll(self) -> None:
         """Act on the keys pressed since the last call."""
+        if self.terminal.was_suspended:
+            self.terminal.was_suspended = False
+            self.say_paused()
         keys = [*self.terminal.read(), *self.window.read()]
         for key in keys:
             if key in PAUSE_KEYS:
                 self.paused = not self.paused
                 self.window.show(self.paused)
-                if self.paused and self.terminal.is_ours:
-                    print("paused: p goes on, x quits", flush=True)
+                self.say_paused()
             elif key in QUIT_KEYS:
                 self.quit_reason = QUIT_KEYS[key]
         if CTRL_C in keys:  # only now: it must not swallow the keys that came with it
             raise KeyboardInterrupt
+
+    def say_paused(self) -> None:
+        """Tell the terminal that the run is paused, if it is."""
+        if self.paused and self.terminal.is_ours:
+            print("paused: p goes on, x quits", flush=True)
 
     def wait_until(self, moment_s: float) -> float:
         """Sleep until that moment of time.perf_counter, and for as long as the run is paused.

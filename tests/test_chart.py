@@ -34,10 +34,10 @@ def chart(capsys: Capture, *words: str) -> tuple[str, Table, str]:
     assert main(["chart", *words]) == 0
     out, err = capsys.readouterr()
     assert err == ""
-    assert max(map(len, out.splitlines())) <= 100
+    assert max(len(line) for line in out.splitlines() if "Saved as" not in line) <= 80
     table: Table = {}
     for line in out.splitlines():
-        if re.fullmatch(r" +[0-9]+( +[0-9.e+-]+){8}", line):
+        if re.fullmatch(r" *[0-9]+( +[0-9.e+-]+){8}", line):
             fps, *figures = line.split()
             numbers = [float(figure) for figure in figures]
             table[int(fps)] = list(zip(numbers[::2], numbers[1::2], strict=True))
@@ -190,3 +190,17 @@ def test_the_worst_verdict_comes_first() -> None:
         return verdict(scene, 30, truth_m(scene, 10))
 
     assert [letter(-1.5), letter(-15.0)] == ["S", "X"]
+
+
+def test_G_is_a_gain_of_more_than_one_percent() -> None:
+    # 20 steps of forward Euler, 1 s each, gain 20 a^2/2; there were 1000 a, on the way down 1 km.
+    for a_mps2, letter in ((-0.9, "o"), (-1.1, "G")):
+        scene = Scene(x_m=0, a_mps2=a_mps2, left_edge_m=-1000, right_edge_m=1000, motion="forward")
+        assert verdict(scene, 1, truth_m(scene, 1)) == letter
+
+
+def test_X_is_further_beyond_a_wall_than_the_track_is_long() -> None:
+    # From the middle of a track of 1 m, one step of v metres ends v - 0.5 m beyond the wall.
+    for v_mps, letter in ((1.4, "o"), (1.6, "X")):
+        scene = Scene(x_m=0.5, v_mps=v_mps, CR=1, left_edge_m=0, right_edge_m=1, correction="none")
+        assert verdict(scene, 1, truth_m(scene, 1)) == letter

@@ -43,7 +43,10 @@ BAD = [
     ("3.5", ["'3.5'", f"0 to {max(EXAMPLES)}"]),
     ("ten", ["'ten'", f"0 to {max(EXAMPLES)}", "nearest:"]),
     ("D", ["'D'", "nearest: d"]),
-    ("3 4", ["'4'", "one number"]),
+    ("3 4", ["3 and 4", "one EXAMPLE"]),
+    ("10 -d", ["'-d'", "nearest: d"]),
+    ("CR = 0.9", ["'CR'", "nearest: CR=VALUE"]),
+    ("frames=5", ["'frames'", "nearest: --frames"]),
     ("chart d", ["d", "chart"]),
     ("chart 3 --fast", ["--fast", "chart"]),
     ("stability --frames 5", ["--frames", "stability"]),
@@ -153,7 +156,7 @@ def test_the_header_names_everything_that_a_run_starts_from(capsys: Capture) -> 
     assert intro.startswith(f"Example 9: {EXAMPLES[9].title}\n")
     scene = Scene(**EXAMPLES[9].settings | {"CR": 0.5})
     named = [f"{f.name}={getattr(scene, f.name)}" for f in fields(scene)]
-    assert ", ".join([*named, "details=True"]) in " ".join(intro.split())
+    assert ", ".join(named) + "; details on" in " ".join(intro.split())
     assert EXAMPLES[9].look_for in " ".join(intro.split())
 
 
@@ -180,6 +183,16 @@ def test_a_reader_that_leaves_early_is_no_error() -> None:
             head.stdout.close()
             assert head.stderr.read() == ""
             assert head.wait(timeout=60) == 0
+
+
+def test_in_a_pipe_too_the_film_comes_line_by_line() -> None:
+    with subprocess.Popen([*COMMAND, "0", "fps_target=10", "--frames", "30"], text=True,
+                          stdout=subprocess.PIPE, env=environment()) as run:
+        assert run.stdout is not None
+        run.stdout.readline()
+        assert "*" in run.stdout.readline()
+        assert run.poll() is None  # 29 frames are still to come
+        run.kill()
 
 
 @pytest.mark.skipif(os.name != "posix", reason="needs a POSIX shell")
@@ -212,7 +225,8 @@ def test_without_pygame_one_line_says_so_and_the_film_runs(tmp_path: Path) -> No
 def test_without_a_display_one_line_says_so_and_the_film_runs() -> None:
     for changes in ({}, {"DISPLAY": ":0", "SDL_VIDEODRIVER": "dummy"},
                     {"DISPLAY": ":0", "SDL_VIDEODRIVER": "offscreen"},
-                    {"DISPLAY": ":0", "SDL_VIDEODRIVER": "nonsense"}):
+                    {"DISPLAY": ":0", "SDL_VIDEODRIVER": "nonsense"},
+                    {"DISPLAY": ":4711", "XDG_RUNTIME_DIR": None}):
         done = program("0", "--frames", "2", **changes)
         assert done.stderr == ""
         assert done.stdout.splitlines()[0] == "No window for the keys: there is no display."

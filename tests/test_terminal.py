@@ -235,6 +235,29 @@ def test_ctrl_z_gives_the_terminal_back_and_fg_takes_it_again() -> None:
         assert modes(terminal.until("found\r\n")) == modes(before)
 
 
+@pytest.mark.skipif(shutil.which("bash") is None, reason="needs bash, for its job control")
+def test_after_ctrl_z_and_fg_a_paused_run_says_that_it_is_paused() -> None:
+    with Terminal("bash", "--norc", "-i") as terminal:
+        terminal.until("$ ")
+        terminal.type(" ".join(COMMAND) + " 0\n")
+        terminal.until("FPS")
+        terminal.type("p")
+        terminal.until("paused: p goes on")
+        terminal.type("\x1a")
+        terminal.until("Stopped", "$ ")
+        terminal.type("fg\n")
+        terminal.until("paused: p goes on, x quits")
+        terminal.type("x")
+        terminal.until("x was pressed.")
+
+
+def test_a_terminal_that_is_not_the_controlling_one_is_left_alone(film: Terminal) -> None:
+    run = subprocess.run([*COMMAND, "0", "--frames", "3"], stdin=film.theirs, stdout=film.theirs,
+                         stderr=subprocess.PIPE, text=True, env=environment(), check=False,
+                         start_new_session=True)
+    assert (run.returncode, run.stderr) == (0, "")
+
+
 def modes(text: str) -> list[str]:
     """The switches in what stty -a printed, such as -echo."""
     return [word for word in text.split(";")[-1].split() if word.lstrip("-").isalnum()]
@@ -266,7 +289,7 @@ def test_no_line_is_wider_than_the_terminal(words: str, columns: int) -> None:
     with airtrack(*words.split(), columns=columns) as terminal:
         shown = ""
         if words != "0":
-            shown = terminal.until("Keys: ", "terminal.\r\n")
+            shown = terminal.until("Keys: ", "once.\r\n")
             terminal.type("\x03")  # no need to read it all
         shown += terminal.until("|  ", "\n")
         terminal.type("x")
