@@ -240,7 +240,10 @@ class Window:
     pygame: Any
 
     def open(self) -> None:
-        """Open the window, or set why_shut. Only the display is initialised: no sound."""
+        """Open the window, or set why_shut.
+
+        Only pygame's display and font are initialised: its sound prints errors where there is none.
+        """
         if sys.platform == "linux" and "WAYLAND_DISPLAY" not in os.environ:
             if "DISPLAY" not in os.environ:
                 self.why_shut = "there is no display"
