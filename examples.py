@@ -196,14 +196,15 @@ else:
                 termios.tcsetattr(0, termios.TCSANOW, self.found)
 
         def suspend(self, *_: object) -> None:
-            """Ctrl-Z: lend the terminal to the shell until fg, when SIGCONT calls resume."""
+            """Ctrl-Z: lend the terminal to the shell until fg."""
             self.restore_mode()
             signal.signal(signal.SIGTSTP, signal.SIG_DFL)
             signal.raise_signal(signal.SIGTSTP)  # the process stops here
             signal.signal(signal.SIGTSTP, self.suspend)
+            self.resume()
 
         def resume(self, *_: object) -> None:
-            """After a suspension: take the terminal again."""
+            """After a suspension (also one by SIGSTOP, which calls nothing): take it again."""
             self.set_mode()
             self.was_suspended = True
 

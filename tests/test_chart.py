@@ -4,12 +4,13 @@ import math
 import re
 import subprocess
 import sys
-from itertools import pairwise
+from itertools import cycle, pairwise
 from pathlib import Path
 
 import pytest
 from test_terminal import airtrack as in_terminal
 
+import airtrack
 from airtrack import (
     CHART_FPS,
     MAP_FPS,
@@ -190,6 +191,16 @@ def test_the_worst_verdict_comes_first() -> None:
         return verdict(scene, 30, truth_m(scene, 10))
 
     assert [letter(-1.5), letter(-15.0)] == ["S", "X"]
+
+
+def test_S_is_for_one_wall_and_not_for_a_car_that_is_thrown_to_and_fro(
+        monkeypatch: pytest.MonkeyPatch) -> None:
+    scene = Scene(x_m=0.5, v_mps=1, left_edge_m=0, right_edge_m=1)
+    truth = truth_m(scene, 1)
+    for places_m, letter in (([-0.1, 1.1], "o"), ([-0.1, -0.2], "S"), ([1.2, 1.1], "S")):
+        places = cycle(places_m)
+        monkeypatch.setattr(airtrack, "step", lambda *_, places=places: (next(places), 1.0, None))
+        assert verdict(scene, 1, truth) == letter
 
 
 def test_G_is_a_gain_of_more_than_one_percent() -> None:

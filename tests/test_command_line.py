@@ -185,16 +185,6 @@ def test_a_reader_that_leaves_early_is_no_error() -> None:
             assert head.wait(timeout=60) == 0
 
 
-def test_in_a_pipe_too_the_film_comes_line_by_line() -> None:
-    with subprocess.Popen([*COMMAND, "0", "fps_target=10", "--frames", "30"], text=True,
-                          stdout=subprocess.PIPE, env=environment()) as run:
-        assert run.stdout is not None
-        run.stdout.readline()
-        assert "*" in run.stdout.readline()
-        assert run.poll() is None  # 29 frames are still to come
-        run.kill()
-
-
 @pytest.mark.skipif(os.name != "posix", reason="needs a POSIX shell")
 def test_a_closed_standard_output_is_one_sentence() -> None:
     done = subprocess.run(["sh", "-c", 'exec "$@" >&-', "sh", *COMMAND, "10", "--fast"],

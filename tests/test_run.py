@@ -1,5 +1,6 @@
 """The main loop, on a clock that the test sets: pacing, stalls, observed dt, the ends of a run."""
 
+import io
 import re
 from itertools import pairwise
 
@@ -96,6 +97,33 @@ def test_keys_that_quit(key: str, why: str, clock: Clock, monkeypatch: pytest.Mo
     assert ending(capsys) == f"Stopped after {len(clock.frames_s)} frames: {why}."
 
 
+class Output(io.StringIO):
+    """A standard output that knows what has not been flushed yet."""
+
+    waiting = ""
+
+    def write(self, text: str) -> int:
+        self.waiting += text
+        return super().write(text)
+
+    def flush(self) -> None:
+        self.waiting = ""
+
+
+def test_each_line_goes_out_at_once_and_does_not_wait_in_a_buffer(
+        clock: Clock, monkeypatch: pytest.MonkeyPatch) -> None:
+    output, sleep = Output(), clock.sleep
+
+    def sleep_when_all_is_out(seconds: float) -> None:
+        assert output.waiting == ""
+        sleep(seconds)
+
+    monkeypatch.setattr("examples.time.sleep", sleep_when_all_is_out)
+    monkeypatch.setattr("sys.stdout", output)
+    assert main(["10", "--frames", "5"]) == 0
+    assert output.getvalue().count("*") >= 5
+
+
 def test_x_is_answered_within_a_long_frame(clock: Clock, monkeypatch: pytest.MonkeyPatch) -> None:
     Keyboard(clock, monkeypatch, t7="x")
     began_s = clock.now_s
@@ -143,7 +171,9 @@ def test_keys_that_come_together_with_ctrl_c_count(
         clock: Clock, monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
     Keyboard(clock, monkeypatch, t1="\x03x")
     main(["10"])
-    assert ending(capsys) == "Stopped after 0 frames: x was pressed."
+    out = capsys.readouterr().out
+    assert "   *\n  * *\n" in out
+    assert out.splitlines()[-1] == "Stopped after 0 frames: x was pressed."
 
 
 @pytest.mark.parametrize(("columns", "width_px"), [(80, 48), (200, 135), (168, 135), (20, 10)])

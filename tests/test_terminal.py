@@ -13,6 +13,7 @@ from types import TracebackType
 
 import pytest
 
+import examples
 from films import COMMAND, HERE, environment
 
 if sys.platform == "win32":
@@ -158,6 +159,24 @@ def test_an_arrow_s_sequence_may_come_in_two_pieces(film: Terminal) -> None:
     assert film.program.poll() is None
 
 
+def test_after_a_lone_Esc_the_rest_of_a_sequence_is_waited_for_and_no_longer(
+        monkeypatch: pytest.MonkeyPatch) -> None:
+    pieces = [b"\x1b", b"[A", b"p\x1b"]
+    waits_s = []
+
+    def ready(fds: list[int], _: object, __: object, wait_s: float) -> tuple[list[int], ...]:
+        waits_s.append(wait_s)
+        come = wait_s > 0 or pieces[:1] in ([b"\x1b"], [b"p\x1b"])
+        return (fds if pieces and come else [], [], [])
+
+    monkeypatch.setattr("examples.select.select", ready)
+    monkeypatch.setattr("examples.os.read", lambda *_: pieces.pop(0))
+    terminal = examples.Terminal()
+    terminal.is_ours = True
+    assert terminal.read() == "p\x1b"  # the arrow is gone, the last Esc is a key
+    assert max(waits_s) <= 0.1
+
+
 def test_x_in_the_header_s_pause_quits_and_p_holds_the_film() -> None:
     with airtrack("1") as terminal:
         terminal.until("Keys: ")
@@ -212,9 +231,14 @@ def test_an_exception_leaves_the_terminal_as_it_was_found() -> None:
         assert terminal.mode() == terminal.found
 
 
-@pytest.mark.skipif(shutil.which("bash") is None, reason="needs bash, for its job control")
-def test_ctrl_z_gives_the_terminal_back_and_fg_takes_it_again() -> None:
-    with Terminal("bash", "--norc", "-i") as terminal:
+SHELLS = [pytest.param(words, marks=pytest.mark.skipif(
+    shutil.which(words[0]) is None, reason=f"needs {words[0]}, for its job control"), id=words[0])
+    for words in (("bash", "--norc", "-i"), ("dash", "-i"))]  # dash does not put modes right itself
+
+
+@pytest.mark.parametrize("shell", SHELLS)
+def test_ctrl_z_gives_the_terminal_back_and_fg_takes_it_again(shell: tuple[str, ...]) -> None:
+    with Terminal(*shell) as terminal:
         terminal.until("$ ")
         terminal.type("stty -a; echo fou''nd\n")
         before = terminal.until("found\r\n")
