@@ -77,15 +77,15 @@ MOTIONS = {"forward": forward, "backward": backward, "exact": exact}
 #
 # A correction gets the scene (section 3; here its walls, a and CR), the state at the frame's start,
 # the state after the free move, the wall that this is beyond, and dt_s. The first three turn the
-# velocity round, keep CR of it, and differ in where they put the car. Replay does not correct the
-# free move but goes back to the frame's start and works out what happened in it.
+# velocity round, keep CR of it, and differ in where they put the car. Replay ignores the free move
+# and the wall, goes back to the frame's start and works out what happened from there.
 
 def none(scene: Scene, start: State, free: State, wall_m: float, dt_s: float) -> State:
     """Leave the car beyond the wall: a trap.
 
     Slowed by CR < 1, or by a pull into the wall, the car may not get back out within a frame.
-    Then the next one finds it in collision again and turns it round, inwards. From there on it
-    goes out less than it goes in: it is stuck, and under a pull it sinks (example 3).
+    Then the next one finds it in collision again and turns it round, deeper into the wall. From
+    there on it goes out less than it goes in: it is stuck, and under a pull it sinks (example 3).
     """
     free_m, free_mps = free
     return free_m, -scene.CR * free_mps
@@ -98,9 +98,9 @@ def rebound(scene: Scene, start: State, free: State, wall_m: float, dt_s: float)
     """Put the car CR * overlap off the wall: as far as it would have bounced back by now.
 
     Only nearly right: the bounce was somewhere within the frame, but the car is turned with the
-    speed of the frame's end. Its energy is then a little wrong, whatever the motion, and it is out
-    of step with the truth (example 8). A CR * overlap longer than the track throws it through the
-    far wall (example 14).
+    speed of the frame's end. Unless a = 0, its energy is then a little wrong, and it gets out of
+    step with the truth (example 8). A CR * overlap longer than the track throws it through the far
+    wall (example 14).
     """
     free_m, free_mps = free
     overlap_m = free_m - wall_m
@@ -186,7 +186,7 @@ def choice(default: object, values: Iterable[Any], meaning: str) -> Any:
     named = {str(value): value for value in values}
     return field(default=default, metadata={
         "meaning": meaning, "allowed": " or ".join(", ".join(named).rsplit(", ", 1)),
-        "names": tuple(named),
+        "names": tuple(named) if isinstance(default, str) else (),
         "read": lambda text: named.get(text, named.get(text.capitalize(), text)),
         "is_ok": lambda value: value in named.values()})
 
@@ -463,8 +463,7 @@ def picture(points: Points) -> str:
 
 def conclusion(points: Points, pixel_m: float) -> str:
     """What each method needs to stay within one drawn pixel, and what that costs beside exact."""
-    exact_s = points["e"][0][2]
-    needs = []
+    needs, cost_of_exact_s = [], points["e"][0][2]
     for letter, series in points.items():
         enough = f"more than {CHART_FPS[-1]} FPS"
         for fps, error_m, cost_s in reversed(series):  # down to the last rate that will do
@@ -472,10 +471,11 @@ def conclusion(points: Points, pixel_m: float) -> str:
                 break
             enough = f"{fps} FPS"
             if letter != "e":
-                enough += f" at {float(f'{cost_s / exact_s:.2g}'):g} times that time"
+                ratio = float(f"{cost_s / cost_of_exact_s:.2g}")
+                enough += f" at {ratio:g} times that time"
         needs.append(f"{' + '.join(SERIES[letter])} needs {enough}")
-    return (f"Exact + replay at {CHART_FPS[0]} FPS takes {1e6 * exact_s:.2g} us of processor time "
-            f"for a simulated second. To stay within one drawn pixel of the truth "
+    return (f"Exact + replay at {CHART_FPS[0]} FPS takes {1e6 * cost_of_exact_s:.2g} us of "
+            f"processor time for a simulated second. To stay within one drawn pixel of the truth "
             f"({1000 * pixel_m:.3g} mm), {', '.join(needs[:-1])}, and {needs[-1]}.")
 
 def progress(text: str) -> None:
@@ -642,6 +642,9 @@ def parse(argv: list[str] | None) -> argparse.Namespace:
     if number is None:
         number = 0 if command == "run" else 10
     example = EXAMPLES.get(number, OWN_SCENE)
+    if settings and example.look_for and example is not OWN_SCENE:
+        told = f"{example.look_for} (This is said of the example as it stands; you have changed "
+        example = example._replace(look_for=f"{told}{', '.join(settings)}.)")
     vars(options).update(command=command, number=number, example=example,
                          details=details or example.details,
                          scene=Scene(**example.settings | settings))
@@ -652,10 +655,8 @@ def fail(message: object) -> int:
     print(f"airtrack.py: error: {message}", file=sys.stderr)
     return 2
 
-def main(argv: list[str] | None = None) -> int:
-    """Carry out a command line, sys.argv's by default. Returns the exit status, 2 for an error."""
-    if sys.stdout is None:
-        return fail("there is no standard output to draw on")
+def carry_out(argv: list[str] | None) -> int:
+    """Do what a command line asks for; the exit status."""
     try:
         options = parse(argv)
         if options.save is not None:
@@ -664,20 +665,28 @@ def main(argv: list[str] | None = None) -> int:
         return int(done.code or 0)
     except (ValueError, argparse.ArgumentError) as fault:
         return fail(fault)
+    title = f"Example {options.number}: {options.example.title}"
+    if options.example is OWN_SCENE:
+        title = OWN_SCENE.title
+        say(f"There is no example {options.number} (they are {min(EXAMPLES)} to {max(EXAMPLES)}): "
+            "this is the default scene, with your settings.")
+    if options.command == "run":
+        return run(options.scene, title, options.example, options.details,
+                   None if options.fast else Keys(), int(options.frames or 50_000))
+    if options.command == "chart":
+        chart(options.scene, title, options.save)
+    else:
+        stability(options.scene, title)
+    return 0
+
+def main(argv: list[str] | None = None) -> int:
+    """Carry out a command line, sys.argv's by default. Returns the exit status, 2 for an error."""
+    if sys.stdout is None:
+        return fail("there is no standard output to draw on")
     try:
-        title = f"Example {options.number}: {options.example.title}"
-        if options.example is OWN_SCENE:
-            title = OWN_SCENE.title
-            say(f"There is no example {options.number} (they are {min(EXAMPLES)} to "
-                f"{max(EXAMPLES)}): this is the default scene, with your settings.")
-        if options.command == "run":
-            return run(options.scene, title, options.example, options.details,
-                       None if options.fast else Keys(), int(options.frames or 50_000))
-        if options.command == "chart":
-            chart(options.scene, title, options.save)
-        else:
-            stability(options.scene, title)
-        return 0
+        status = carry_out(argv)
+        sys.stdout.flush()
+        return status
     except KeyboardInterrupt:
         return 130
     except OSError as fault:

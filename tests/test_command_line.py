@@ -35,7 +35,7 @@ BAD = [
     ("width_px=5", ["width_px", "5", "10 to 1000"]),
     ("motion=bakward", ["motion", "'bakward'", "forward, backward or exact", "nearest: backward"]),
     ("correction=Replay", ["correction", "'Replay'", "nearest: replay"]),
-    ("auto_off=maybe", ["auto_off", "'maybe'", "False or True"]),
+    ("auto_off=no", ["auto_off", "'no'", "False or True"]),
     ("8 left_edge_m=2.2", ["left_edge_m", "right_edge_m", "0.01 m", "2.2"]),
     ("8 correction=replay", ["motion", "exact", "'backward'"]),
     ("4 motion=exact correction=replay", ["x_m", "0.25 to 2.2", "0.2"]),
@@ -138,6 +138,8 @@ def test_settings_come_on_top_of_the_example(capsys: Capture) -> None:
     assert "x_m=1.0, v_mps=2.0, a_mps2=0.0," in intro
     assert lines[0].endswith("x =   1.20, v =  2.00, FPS =  10")
     assert "motion=exact, correction=replay" in " ".join(intro.split())
+    assert "you have changed x_m, v_mps, a_mps2.)" in " ".join(intro.split())
+    assert "you have changed" not in film(capsys, "10", "d", "--frames", "1").intro
 
 
 def test_words_and_options_come_in_any_order(capsys: Capture) -> None:
@@ -173,6 +175,18 @@ def test_a_run_ends_after_50_000_frames_by_itself(capsys: Capture) -> None:
     assert ending == "Stopped after 50000 frames: that is the frame limit."
 
 
+@pytest.mark.skipif(os.name != "posix", reason="needs a POSIX shell")
+@pytest.mark.parametrize("words", [
+    "stability", "chart", "-h", "10 --fast --frames 3", "0 --frames 3"])
+def test_a_reader_that_never_reads_is_no_error(words: str) -> None:
+    read, write = os.pipe()
+    os.close(read)
+    with os.fdopen(write, "w") as pipe:
+        done = subprocess.run([*COMMAND, *words.split()], stdout=pipe, stderr=subprocess.PIPE,
+                              text=True, env=environment(), check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+
+
 def test_a_reader_that_leaves_early_is_no_error() -> None:
     for words in ("7 --fast", "10"):
         with subprocess.Popen([*COMMAND, *words.split()], stdout=subprocess.PIPE, text=True,
@@ -195,7 +209,7 @@ def test_a_closed_standard_output_is_one_sentence() -> None:
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
 def test_a_full_disk_is_one_sentence() -> None:
-    for words in ("10 --fast", "10"):
+    for words in ("10 --fast", "10", "stability", "chart"):
         with Path("/dev/full").open("w") as full:
             done = subprocess.run([*COMMAND, *words.split()], stdout=full, text=True,
                                   stderr=subprocess.PIPE, env=environment(), check=False)
