@@ -506,7 +506,8 @@ def chart(scene: Scene, title: str, file: str | None) -> None:
             progress(f"measuring {' + '.join(method)} at {fps} FPS")
             points[letter].append(measure(by_method(scene, *method), fps, samples_m))
     progress("")
-    print(f"{title}\nSpeed against accuracy, {SPAN_S} simulated seconds\n\n{picture(points)}\n")
+    say(title)
+    print(f"Speed against accuracy, {SPAN_S} simulated seconds\n\n{picture(points)}\n")
     names = [f"{letter} {'+'.join(method)}" for letter, method in SERIES.items()]
     print("    " + "".join(f"{name:>19}" for name in names))
     print(" FPS" + f"{'error m':>10}{'cost s':>9}" * len(SERIES))
@@ -563,7 +564,8 @@ def verdict(scene: Scene, fps: int, samples_m: list[float]) -> str:
 
 def stability(scene: Scene, title: str) -> None:
     """Print the map: a row a method, a column a frame rate, a letter for what happened there."""
-    print(f"{title}\nStability, {SPAN_S} simulated seconds\n")
+    say(title)
+    print(f"Stability, {SPAN_S} simulated seconds\n")
     print(f"{'FPS':20}" + "".join(f"{fps:6}" for fps in MAP_FPS))
     samples_m = {rate: truth_m(scene, rate) for rate in {min(fps, 10) for fps in MAP_FPS}}
     for motion, correction in product(MOTIONS, CORRECTIONS):
@@ -642,10 +644,11 @@ def parse(argv: list[str] | None) -> argparse.Namespace:
     if number is None:
         number = 0 if command == "run" else 10
     example = EXAMPLES.get(number, OWN_SCENE)
+    title = example.title if example is OWN_SCENE else f"Example {number}: {example.title}"
+    title += "".join(f", {name}={value}" for name, value in settings.items())
     if settings and example.look_for and example is not OWN_SCENE:
-        told = f"{example.look_for} (This is said of the example as it stands; you have changed "
-        example = example._replace(look_for=f"{told}{', '.join(settings)}.)")
-    vars(options).update(command=command, number=number, example=example,
+        example = example._replace(look_for=f"{example.look_for} (So it is without your changes.)")
+    vars(options).update(command=command, number=number, example=example, title=title,
                          details=details or example.details,
                          scene=Scene(**example.settings | settings))
     return options
@@ -665,18 +668,16 @@ def carry_out(argv: list[str] | None) -> int:
         return int(done.code or 0)
     except (ValueError, argparse.ArgumentError) as fault:
         return fail(fault)
-    title = f"Example {options.number}: {options.example.title}"
     if options.example is OWN_SCENE:
-        title = OWN_SCENE.title
         say(f"There is no example {options.number} (they are {min(EXAMPLES)} to {max(EXAMPLES)}): "
             "this is the default scene, with your settings.")
     if options.command == "run":
-        return run(options.scene, title, options.example, options.details,
+        return run(options.scene, options.title, options.example, options.details,
                    None if options.fast else Keys(), int(options.frames or 50_000))
     if options.command == "chart":
-        chart(options.scene, title, options.save)
+        chart(options.scene, options.title, options.save)
     else:
-        stability(options.scene, title)
+        stability(options.scene, options.title)
     return 0
 
 def main(argv: list[str] | None = None) -> int:

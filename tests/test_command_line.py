@@ -138,8 +138,9 @@ def test_settings_come_on_top_of_the_example(capsys: Capture) -> None:
     assert "x_m=1.0, v_mps=2.0, a_mps2=0.0," in intro
     assert lines[0].endswith("x =   1.20, v =  2.00, FPS =  10")
     assert "motion=exact, correction=replay" in " ".join(intro.split())
-    assert "you have changed x_m, v_mps, a_mps2.)" in " ".join(intro.split())
-    assert "you have changed" not in film(capsys, "10", "d", "--frames", "1").intro
+    assert ": The exact solution, x_m=1.0, v_mps=2.0, a_mps2=0.0\n" in intro
+    assert "(So it is without your changes.)" in " ".join(intro.split())
+    assert "without your changes" not in film(capsys, "10", "d", "--frames", "1").intro
 
 
 def test_words_and_options_come_in_any_order(capsys: Capture) -> None:
@@ -155,7 +156,7 @@ def test_switches_are_read_in_any_case(capsys: Capture) -> None:
 
 def test_the_header_names_everything_that_a_run_starts_from(capsys: Capture) -> None:
     intro = film(capsys, "9", "d", "CR=0.5", "--frames", "1").intro
-    assert intro.startswith(f"Example 9: {EXAMPLES[9].title}\n")
+    assert intro.startswith(f"Example 9: {EXAMPLES[9].title}, CR=0.5\n")
     scene = Scene(**EXAMPLES[9].settings | {"CR": 0.5})
     named = [f"{f.name}={getattr(scene, f.name)}" for f in fields(scene)]
     assert ", ".join(named) + "; details on" in " ".join(intro.split())
