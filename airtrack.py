@@ -497,8 +497,11 @@ def new_figure(file: str) -> Any:
         raise ValueError(f"--save {file!r}: there is no such folder")
     return figure
 
-def chart(scene: Scene, title: str, file: str | None) -> None:
-    """Measure each method at each rate; show a picture, a table and what follows from them."""
+def chart(scene: Scene, title: str, file: str | None, figure: Any) -> None:
+    """Measure each method at each rate; show a picture, a table and what follows from them.
+
+    With a figure, of matplotlib, the picture is drawn there too, and saved as the file.
+    """
     samples_m = truth_m(scene, 10)
     points: Points = {letter: [] for letter in SERIES}
     for letter, method in SERIES.items():
@@ -516,8 +519,8 @@ def chart(scene: Scene, title: str, file: str | None) -> None:
         print(f"{row[0][0]:4}{''.join(cells)}")
     print()
     say(conclusion(points, 1 / scene.m_to_px))
-    if file:
-        axes = (figure := new_figure(file)).add_subplot()
+    if figure:
+        axes = figure.add_subplot()
         for name, series in zip(names, points.values(), strict=True):
             _, errors_m, costs_s = zip(*series, strict=True)
             axes.loglog(costs_s, [max(error_m, 1e-16) for error_m in errors_m], "o-", label=name)
@@ -662,8 +665,7 @@ def carry_out(argv: list[str] | None) -> int:
     """Do what a command line asks for; the exit status."""
     try:
         options = parse(argv)
-        if options.save is not None:
-            new_figure(options.save)  # what is wrong with FILE is wrong before the measuring too
+        figure = None if options.save is None else new_figure(options.save)
     except SystemExit as done:  # argparse, after -h
         return int(done.code or 0)
     except (ValueError, argparse.ArgumentError) as fault:
@@ -675,7 +677,7 @@ def carry_out(argv: list[str] | None) -> int:
         return run(options.scene, options.title, options.example, options.details,
                    None if options.fast else Keys(), int(options.frames or 50_000))
     if options.command == "chart":
-        chart(options.scene, options.title, options.save)
+        chart(options.scene, options.title, options.save, figure)
     else:
         stability(options.scene, options.title)
     return 0
