@@ -6,6 +6,7 @@ import subprocess
 import sys
 from itertools import cycle, pairwise
 from pathlib import Path
+from typing import Any
 
 import pytest
 from test_terminal import airtrack as in_terminal
@@ -78,8 +79,21 @@ def test_forward_eulers_error_falls_with_the_step_and_the_exact_one_is_round_off
         assert table[fps][3][0] < limit_m
 
 
-def test_the_cost_rises_with_the_frame_rate(capsys: Capture) -> None:
+def test_the_cost_is_the_processor_time_of_the_steps_for_a_simulated_second(
+        monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
+    spent_s = [0.0]
+
+    def step_for_a_microsecond(*args: Any) -> tuple[float, float, float | None]:
+        spent_s[0] += 1e-6
+        return step(*args)
+
+    step = airtrack.step
+    monkeypatch.setattr(airtrack, "step", step_for_a_microsecond)
+    monkeypatch.setattr(airtrack, "processor_s", lambda: spent_s[0])
     _, table, _ = chart(capsys)
+    for fps in CHART_FPS:
+        for column in range(4):
+            assert table[fps][column][1] == pytest.approx(fps * 1e-6, rel=0.05)
     for column in range(4):
         assert table[3840][column][1] > 20 * table[10][column][1]
 
