@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Callable
+from itertools import pairwise
 from types import SimpleNamespace
 
 import pytest
@@ -36,7 +37,7 @@ class Clock:
         self.now_s += seconds + 60e-6  # a little too long, as real ones are
 
     def lengths_s(self) -> list[float]:
-        return [b - a for a, b in zip(self.frames_s, self.frames_s[1:], strict=False)]
+        return [b - a for a, b in pairwise(self.frames_s)]
 
 
 class Keyboard:

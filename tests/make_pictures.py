@@ -51,11 +51,11 @@ def shades() -> Image.Image:
 
 
 def main() -> None:
+    palette = shades()
     for number, name in ((10, "example-10"), (16, "example-16")):
         lines, command = film(number), " ".join(["python airtrack.py", str(number), "d", *SIZE])
         columns = max(map(len, lines))
         screens = [screen(command, lines[:count], columns) for count in range(1, FRAMES + 1)]
-        palette = shades()
         frames = [picture.quantize(palette=palette, dither=Image.Dither.NONE)
                   for picture in screens]
         file = HERE / ".github" / f"{name}.gif"
