@@ -22,7 +22,7 @@ class Clock:
         self.when_drawn: Callable[[int], float] = lambda frame: 0.0  # how long that takes
         monkeypatch.setattr(airtrack, "clock_s", lambda: self.now_s)
         monkeypatch.setattr(examples, "time", SimpleNamespace(
-            perf_counter=lambda: self.now_s, sleep=self.sleep))
+            perf_counter=lambda: self.now_s, monotonic=lambda: self.now_s, sleep=self.sleep))
         render_track = airtrack.render_track
 
         def render(*args: object) -> str:
@@ -55,6 +55,6 @@ class Keyboard:
         return keys
 
 
-def positions_m(capsys: Capture) -> list[float]:
+def positions_m(out: str) -> list[float]:
     """The x of every frame in what was printed."""
-    return [float(x) for x in re.findall(r"x = +(-?[0-9.]+), v", capsys.readouterr().out)]
+    return [float(x) for x in re.findall(r"x = +(-?[0-9.]+), v", out)]

@@ -1,13 +1,27 @@
-"""Fixtures."""
+"""What every test starts from: the same environment, wherever it is started."""
+
+import os
 
 import pytest
+from hypothesis import settings
 
 from clock import Clock
+from films import CLEAN
+
+settings.register_profile("airtrack", deadline=None, derandomize=True)  # a slow machine is no fault
+settings.load_profile("airtrack")
+
+
+@pytest.fixture(autouse=True)
+def clean_environment(monkeypatch: pytest.MonkeyPatch) -> None:
+    """No display, no width, no colours but those that a test sets."""
+    for name in set(os.environ) - set(CLEAN) - {"PYTEST_CURRENT_TEST"}:
+        monkeypatch.delenv(name)
+    for name, value in CLEAN.items():
+        monkeypatch.setenv(name, value)
 
 
 @pytest.fixture
 def clock(monkeypatch: pytest.MonkeyPatch) -> Clock:
-    """A clock that the test sets, and no display."""
-    monkeypatch.delenv("DISPLAY", raising=False)
-    monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
+    """A clock that the test sets."""
     return Clock(monkeypatch)

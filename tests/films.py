@@ -1,6 +1,7 @@
 """Runs of the program, for the tests: in this process, or as a user starts it."""
 
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -12,6 +13,12 @@ from airtrack import main
 
 HERE = Path(__file__).resolve().parent.parent
 COMMAND = [sys.executable, str(HERE / "airtrack.py")]
+
+# Nothing else of the environment in which the tests are started reaches a run: no display, no
+# colours turned off, no width.
+KEPT = ("PATH", "HOME", "SYSTEMROOT", "TEMP", "TMP", "LD_LIBRARY_PATH", "XDG_RUNTIME_DIR")
+CLEAN = {name: os.environ[name] for name in KEPT if name in os.environ} | {
+    "TERM": "xterm", "LANG": "C.UTF-8"}
 
 
 class Film(NamedTuple):
@@ -28,17 +35,23 @@ def film(capsys: pytest.CaptureFixture[str], *words: str) -> Film:
     out, err = capsys.readouterr()
     assert err == ""
     *lines, ending = out.splitlines()
-    first = next((i + 1 for i in range(len(lines) - 1, -1, -1) if lines[i] == ""), 0)
-    return Film("\n".join(lines[:first]), lines[first:], ending)
+    first = lines.index("") + 1 if "" in lines else 0
+    return Film(" ".join(lines[:first]), lines[first:], ending)
+
+
+def details(line: str) -> tuple[float, float]:
+    """x and v in the details behind a line."""
+    x_text, v_text = re.findall(r"[xv] = +(-?[0-9.]+)", line)
+    return float(x_text), float(v_text)
+
+
+def environment(**changes: str | None) -> dict[str, str]:
+    """A clean environment with the changes (None: unset)."""
+    wanted: dict[str, str | None] = {**CLEAN, **changes}
+    return {name: value for name, value in wanted.items() if value is not None}
 
 
 def program(*words: str, **changes: str | None) -> subprocess.CompletedProcess[str]:
     """Run the program in a process of its own, with changes to the environment (None: unset)."""
     return subprocess.run([*COMMAND, *words], capture_output=True, text=True, timeout=60,
                           env=environment(**changes), stdin=subprocess.DEVNULL, check=False)
-
-
-def environment(**changes: str | None) -> dict[str, str]:
-    """This process's environment without a display, with the changes (None: unset)."""
-    wanted = dict(os.environ) | {"DISPLAY": None, "WAYLAND_DISPLAY": None} | changes
-    return {name: value for name, value in wanted.items() if value is not None}

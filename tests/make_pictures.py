@@ -12,10 +12,15 @@ from matplotlib.font_manager import findfont
 from PIL import Image, ImageDraw, ImageFont
 
 HERE = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(HERE))
+
+from airtrack import AMBER, FILM_INK, GREEN, RED  # noqa: E402
+
 SIZE = ["m_to_px=36", "width_px=88"]  # what a README's width has room for
 FRAMES, ROWS, LINE_PX, LETTER_PX, EDGE_PX = 80, 18, 15, 7, 8
-PAPER, INK = (24, 24, 27), {"*": (250, 204, 21), "o": (74, 222, 128), "0": (248, 113, 113)}
-GREY = (190, 190, 196)
+PAPER, GREY = (24, 24, 27), (190, 190, 196)
+SHADES = {AMBER: (250, 204, 21), GREEN: (74, 222, 128), RED: (248, 113, 113)}  # of a dark terminal
+INK = {mark: SHADES[colour] for mark, colour in FILM_INK.items()}
 FONT = ImageFont.truetype(findfont("DejaVu Sans Mono"), 12)
 
 
@@ -43,7 +48,7 @@ def screen(command: str, lines: list[str], columns: int) -> Image.Image:
 def shades() -> Image.Image:
     """A palette of every ink, thinned out towards the paper as at a letter's edges."""
     colours = [round(paper + (ink - paper) * step / 5)
-               for inks in (GREY, *INK.values()) for step in range(6)
+               for inks in (GREY, *SHADES.values()) for step in range(6)
                for paper, ink in zip(PAPER, inks, strict=True)]
     palette = Image.new("P", (1, 1))
     palette.putpalette(colours)

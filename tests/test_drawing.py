@@ -20,12 +20,14 @@ def test_every_column_shows_the_first_of_the_marks_that_belong_there(
         x_m: float, mark_m: float | None, exact_m: float | None, start_m: float,
         width_px: int, m_to_px: float) -> None:
     scene = Scene(x_m=start_m, width_px=width_px, m_to_px=m_to_px, **ALL_MARKS)
-    ranked = [("*", x_m), ("|", 0.25), ("|", 2.2), (".", start_m), ("0", mark_m), ("o", exact_m)]
+    car_px = round(x_m * m_to_px)
+    car = ("<", 0) if car_px < 0 else (">", width_px - 1) if car_px >= width_px else ("*", car_px)
+    ranked = [("|", 0.25), ("|", 2.2), (".", start_m), ("0", mark_m), ("o", exact_m)]
+    columns = [car] + [(mark, round(at_m * m_to_px)) for mark, at_m in ranked if at_m is not None]
     line = render_track(scene, x_m, mark_m, exact_m)
     assert len(line) == width_px
     for column, shown in enumerate(line):
-        here = [mark for mark, at_m in ranked
-                if at_m is not None and round(at_m * m_to_px) == column]
+        here = [mark for mark, at_px in columns if at_px == column]
         assert shown == (here[0] if here else " ")
 
 

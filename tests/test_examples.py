@@ -10,15 +10,9 @@ import pytest
 
 from airtrack import Scene, step
 from examples import EXAMPLES, OWN_SCENE
-from films import film
+from films import details, film
 
 Capture = pytest.CaptureFixture[str]
-
-
-def details(line: str) -> tuple[float, float]:
-    """x and v in the details behind a line."""
-    x_text, v_text = re.findall(r"[xv] = +(-?[0-9.]+)", line)
-    return float(x_text), float(v_text)
 
 
 def states(number: int, frames: int) -> list[tuple[float, float, float | None]]:
@@ -40,7 +34,7 @@ def turns_m(number: int, frames: int) -> list[float]:
 
 # The lesson's film, frame for frame and column for column.
 
-def test_the_one_pager_has_neither_header_nor_pause_and_shows_details(capsys: Capture) -> None:
+def test_the_one_pager_has_no_pause_and_shows_details(capsys: Capture) -> None:
     for words in ((), ("0",)):
         shown = film(capsys, *words, "--frames", "600")
         assert shown.intro == ""
@@ -68,13 +62,14 @@ def test_examples_1_and_5_come_to_rest(
     _, lines, ending = film(capsys, str(number), "d")
     assert len(lines) == frames
     assert details(lines[-1])[0] == x_m
-    assert ending == f"Stopped after {frames} frames: the car is at rest against a wall."
+    assert ending == (f"Stopped after {frames} frames, t = {frames / 30:.2f} s: "
+                      "the car is at rest against a wall.")
 
 
 def test_example_3_sinks_to_minus_35_cm_in_600_frames(capsys: Capture) -> None:
     _, lines, ending = film(capsys, "3", "d", "--frames", "600")
     assert details(lines[-1])[0] == -0.35
-    assert ending == "Stopped after 600 frames: that is the frame limit."
+    assert ending == "Stopped after 600 frames, t = 20.00 s: that is the frame limit."
 
 
 @pytest.mark.parametrize("number", sorted(EXAMPLES))
@@ -114,22 +109,26 @@ def test_2_is_drawn_up_to_8_cm_beyond_the_walls_and_never_stops(capsys: Capture)
     columns = [line.index("*") for line in lines]
     assert max(14 - min(columns), max(columns) - 121) / 55 == pytest.approx(0.08, abs=1 / 55)
     assert max(abs(x_m - 1.225) for x_m, _, _ in states(2, 1000)) - 0.975 == pytest.approx(0.08)
-    assert ending == "Stopped after 50000 frames: that is the frame limit."
+    assert ending == "Stopped after 50000 frames, t = 1666.67 s: that is the frame limit."
     assert {abs(v_mps) for _, v_mps, _ in states(2, 1000)} == {2.7}
 
 
 def test_3_is_caught_in_frame_46_and_sinks_a_millimetre_a_frame(capsys: Capture) -> None:
-    says(3, "In frame 46", "60 %", "1 mm a frame", "after frame 272")
+    says(3, "In frame 46 (t = 1.53 s)", "60 %", "1 mm a frame", "frame 273 on, there is a <")
+    assert round(46 / 30, 2) == 1.53
     xs = [x_m for x_m, _, _ in states(3, 600)]
     assert [x_m < 0.25 for x_m in xs].index(True) + 1 == 46
     assert all(x_m < 0.25 for x_m in xs[45:])
     assert (xs[99] - xs[599]) / 500 == pytest.approx(1e-3, rel=0.1)
     _, lines, _ = film(capsys, "3", "--frames", "300")
-    assert ["*" in line for line in lines] == [True] * 272 + [False] * 28
+    assert [line.strip()[0] for line in lines[250:]] == ["*"] * 22 + ["<"] * 28
 
 
-def test_4_collides_in_its_first_two_frames_and_leaves_at_6_4_mps() -> None:
-    says(4, "10 m/s", "first two frames", "6.4 m/s")
+def test_4_collides_in_its_first_two_frames_and_leaves_at_6_4_mps(capsys: Capture) -> None:
+    says(4, "10 m/s", "first two frames", "6.4 m/s", "hundreds of lines", "after 1830 frames")
+    assert film(capsys, "4").ending.startswith("Stopped after 1830 frames")
+    bounces = [n for n, (_, _, mark_m) in enumerate(states(4, 1000)) if mark_m is not None]
+    assert bounces[3] - bounces[2] > 100
     first = states(4, 3)
     assert [mark_m is not None for _, _, mark_m in first] == [True, True, False]
     assert first[1][1] == pytest.approx(6.4, abs=0.05)
@@ -150,12 +149,13 @@ def test_6_is_5_drawn_smaller(capsys: Capture) -> None:
     assert max(line.rindex("*") for line in six.lines) == 66
 
 
-def test_7_turns_at_its_start_mark_or_a_centimetre_short_of_it() -> None:
-    says(7, "or turns at 1.99 m, a centimetre short")
-    turns = turns_m(7, 60 * 240)
-    assert len(turns) > 20
-    assert {round(turn * 55) for turn in turns} == {109, 110}
-    assert {round(turn, 2) for turn in turns} == {1.99, 2.0}
+def test_7_turns_at_its_start_mark_and_a_centimetre_short_of_it_by_turns() -> None:
+    says(7, "to a centimetre", "1.99 m (first in frame 633, t = 2.64 s) and to 2.00 m by turns")
+    turns = [round(turn, 2) for turn in turns_m(7, 60 * 240)]
+    assert turns[:20] == [1.99, 2.0] * 10
+    xs = [x_m for x_m, _, _ in states(7, 700)]
+    assert xs.index(max(xs[400:])) + 1 == 633
+    assert round(633 / 240, 2) == 2.64
 
 
 def test_8_turns_12_cm_short_of_its_start_mark_every_other_time() -> None:
@@ -168,7 +168,8 @@ def test_8_turns_12_cm_short_of_its_start_mark_every_other_time() -> None:
 
 
 def test_10_is_drawn_on_its_start_mark_at_every_turn() -> None:
-    says(10, "every time", "10 FPS", "in example 8, by Euler's method, it does not")
+    says(10, "every time", "10 FPS", "in example 8, by Euler's method, it does not", "frame 14: p")
+    assert [mark_m is not None for _, _, mark_m in states(10, 14)] == [False] * 13 + [True]
     turns = turns_m(10, 6000)
     assert len(turns) > 200
     assert {round(turn * 55) for turn in turns} == {110}
@@ -186,7 +187,7 @@ def test_11_comes_back_too_however_the_time_is_cut_into_frames() -> None:
 
 
 def test_12_rests_from_its_Zeno_point_on() -> None:
-    says(12, "80 %", "t = 11.91 s")
+    says(12, "80 %", "t = 11.91 s", "One frame may hold many of them")
     fall_s = math.sqrt(2 * 1.75 / 2)
     assert fall_s + 2 * fall_s * 0.8 / (1 - 0.8) == pytest.approx(11.91, abs=0.005)
     scene = Scene(**EXAMPLES[12].settings)
@@ -202,12 +203,15 @@ def test_13_gains_energy_and_hits_the_far_wall_in_frame_24() -> None:
     assert max(x_m for x_m, _, _ in found[14:23]) > 2.0
 
 
-def test_14_is_outside_from_the_first_frame_on_and_out_of_the_picture(capsys: Capture) -> None:
-    says(14, "from the first frame on it is outside", "4.1 m further every other frame", "4 m")
+def test_14_is_thrown_out_to_the_left_and_to_the_right_by_turns(capsys: Capture) -> None:
+    says(14, "out to the left (<), out to the right (>)", "4.1 m further every other frame", "4 m",
+         "In a minute it is 1.2 km away")
     xs = [x_m for x_m, _, _ in states(14, 600)]
     assert all(x_m < 0.25 or x_m > 2.2 for x_m in xs)
     assert {round(abs(b) - abs(a), 6) for a, b in zip(xs, xs[2:], strict=False)} == {4.1}
-    assert not {"*", "0"} & set("".join(film(capsys, "14", "--frames", "600").lines))
+    assert xs[-1] == pytest.approx(1200, rel=0.05)
+    shown = ["".join(line.split()) for line in film(capsys, "14", "--frames", "600").lines]
+    assert shown == ["<||", "||>"] * 300
 
 
 def test_15_creeps_a_tenth_of_a_metre_a_frame(capsys: Capture) -> None:

@@ -6,18 +6,14 @@ from typing import Any
 
 import pytest
 
+import airtrack
 from airtrack import Scene
 
-DEFAULTS: dict[str, Any] = {
-    "x_m": 1.1, "v_mps": 0, "a_mps2": 0, "left_edge_m": 0.25, "right_edge_m": 2.2, "CR": 0.8,
-    "motion": "backward", "correction": "rebound", "fps_target": 30, "use_observed_dt": False,
-    "auto_off": True, "m_to_px": 55, "width_px": 135, "show_start_mark": False,
-    "show_collision_mark": True, "show_exact_mark": False}
 
-
-def test_the_defaults() -> None:
-    assert {f.name: f.default for f in fields(Scene)} == DEFAULTS
-    assert Scene() == Scene(**DEFAULTS)
+def test_the_defaults_are_a_scene_of_their_own() -> None:
+    values = [getattr(Scene(), f.name) for f in fields(Scene)]
+    assert values == [1.1, 0, 0, 0.25, 2.2, 0.8, "backward", "rebound", 30, False, True, 55, 135,
+                      False, True, False]
 
 
 def test_a_scene_cannot_be_changed() -> None:
@@ -36,11 +32,11 @@ just_above, just_below = math.nextafter(1000, 2000), -math.nextafter(1000, 2000)
     ("right_edge_m", [1000, 0.26], [just_above, 0.255, 0]),
     ("CR", [0, 1, 0.5], [-1e-9, 1.0000001, math.nan, False]),
     ("motion", ["forward", "backward", "exact"], ["Exact", "", None]),
-    ("correction", ["none", "surface", "rebound"], ["bounce", None]),
+    ("correction", ["none", "surface", "rebound"], ["bounce", "rewind", None]),
     ("fps_target", [0.1, 1000], [0.0999, just_above, math.nan]),
     ("use_observed_dt", [True, False], ["True", 2, None]),
     ("auto_off", [True, False], ["no", -1]),
-    ("m_to_px", [5e-324, 1000], [0, -1, just_above]),
+    ("m_to_px", [0.001, 1000], [0, 0.00099, -1, just_above]),
     ("width_px", [10, 1000], [9, 1001, 50.5, 50.0, True]),
     ("show_start_mark", [True, False], ["yes"]),
     ("show_collision_mark", [True, False], [3]),
@@ -58,14 +54,21 @@ def test_every_range(name: str, good: list[Any], bad: list[Any]) -> None:
 def test_the_error_names_field_value_and_range() -> None:
     with pytest.raises(ValueError, match=r"^CR must be from 0 to 1, not 1\.5$"):
         Scene(CR=1.5)
-    with pytest.raises(ValueError, match=r"^motion must be forward, backward or exact, not "
-                                         r"'bakward'; nearest: backward$"):
-        Scene(motion="bakward")
+    with pytest.raises(ValueError, match=r"^motion must be forward, backward or exact, not 'up'$"):
+        Scene(motion="up")
 
 
-def test_replay_needs_the_exact_motion_and_a_start_on_the_track() -> None:
+def test_rewind_and_replay_need_the_exact_motion_and_replay_a_start_on_the_track() -> None:
     Scene(motion="exact", correction="replay", x_m=0.25)
-    with pytest.raises(ValueError, match=r"^motion must be exact with correction=replay"):
-        Scene(correction="replay")
+    Scene(motion="exact", correction="rewind", x_m=0.2)
+    for correction in ("rewind", "replay"):
+        with pytest.raises(ValueError, match=f"^motion must be exact with correction={correction}"):
+            Scene(correction=correction)
     with pytest.raises(ValueError, match=r"^x_m must be on the track with correction=replay"):
         Scene(motion="exact", correction="replay", x_m=0.2)
+
+
+def test_the_table_allows_what_the_tables_of_functions_have() -> None:
+    allowed = {f.name: f.metadata["allowed"] for f in fields(Scene)}
+    assert allowed["motion"] == tuple(airtrack.MOTIONS)
+    assert allowed["correction"] == (*airtrack.CORRECTIONS, "replay")
