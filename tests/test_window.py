@@ -1,150 +1,173 @@
-"""The little window, on an X server of its own (Xvfb), with keys pressed by xdotool."""
+"""The little window, on an X server of its own (Xvfb), with keys pressed by xdotool; and none."""
 
 import ctypes
 import ctypes.util
+import importlib.util
 import os
 import re
 import shutil
+import struct
 import subprocess
 import time
+from collections import Counter
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
 
 import pytest
 
-from films import COMMAND, environment
+from films import COMMAND, HERE, environment, program
 
+# Pygame itself is not imported here: it would set environment variables that a run then inherits.
+HAS_PYGAME = importlib.util.find_spec("pygame") is not None
 MISSING = [name for name in ("Xvfb", "xdotool") if shutil.which(name) is None]
-pytestmark = pytest.mark.skipif(bool(MISSING), reason=f"not installed: {', '.join(MISSING)}")
-pytest.importorskip("pygame", reason="pygame is not installed")
+MISSING += [] if HAS_PYGAME else ["pygame"]
+needs_window = pytest.mark.skipif(bool(MISSING), reason=f"not installed: {', '.join(MISSING)}")
 
-PATIENCE_S = 30
+PATIENCE_S = 30  # for what must come: only a test that fails waits so long
+RUNNING, PAUSED = "running p: pause s: step x: quit", "PAUSED p: go on s: step x: quit"
+WHITE, DARK_ORANGE = (255, 255, 255), (255, 140, 0)
+
+
+class Screen:
+    """An X server without a window manager, which keeps its picture in a file."""
+
+    def __init__(self, name: str, picture: Path) -> None:
+        self.name, self.picture = name, picture
+
+    def xdotool(self, *words: str) -> str:
+        return subprocess.run(["xdotool", *words], env=environment(DISPLAY=self.name), text=True,
+                              capture_output=True, check=False, timeout=PATIENCE_S).stdout.strip()
+
+    def pixels(self, left: int, top: int, width: int, height: int) -> Counter[tuple[int, int, int]]:
+        """How often each colour (red, green, blue) is there."""
+        content = self.picture.read_bytes()  # as xwd writes it
+        header = struct.unpack(">25I", content[:100])
+        row_bytes, first = header[12], header[0] + 12 * header[19]
+        counts: Counter[tuple[int, int, int]] = Counter()
+        for row in range(top, top + height):
+            at = first + row * row_bytes + 4 * left
+            counts.update((red, green, blue) for blue, green, red, _ in struct.iter_unpack(
+                "4B", content[at:at + 4 * width]))
+        return counts
 
 
 @pytest.fixture(scope="module")
-def display() -> Iterator[str]:
-    """An X server without a window manager; its name, such as :3."""
+def screen(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Screen]:
     read, write = os.pipe()
-    with subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", "800x600x24"],
-                          pass_fds=[write], stderr=subprocess.DEVNULL) as server:
+    folder = tmp_path_factory.mktemp("screen")
+    with subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", "800x600x24",
+                           "-fbdir", str(folder)], pass_fds=[write],
+                          stderr=subprocess.DEVNULL) as server:
         os.close(write)
         with os.fdopen(read) as pipe:
-            yield f":{pipe.readline().strip()}"
+            yield Screen(f":{pipe.readline().strip()}", folder / "Xvfb_screen0")
         server.terminate()
 
 
-class Run:
-    """A run with a window; its output goes into a pipe, so only the window has keys."""
+class Film:
+    """A run with a window. Its output goes into a file, so only the window has keys."""
 
-    def __init__(self, display: str, program: "subprocess.Popen[str]") -> None:
-        self.display, self.program = display, program
-        self.window = self.xdotool("search", "--sync", "--class", "airtrack").split()[0]
-        self.xdotool("windowfocus", "--sync", self.window)
-
-    def xdotool(self, *words: str) -> str:
-        return subprocess.run(["xdotool", *words], env=environment(DISPLAY=self.display), text=True,
-                              capture_output=True, check=True, timeout=PATIENCE_S).stdout
-
-    def press(self, key: str) -> None:
-        self.xdotool("key", key)
-
-    def caption(self) -> str:
-        return self.xdotool("getwindowname", self.window).strip()
-
-    def shows(self, text: str) -> None:
-        """Wait until the caption has the text."""
+    def __init__(self, screen: Screen, process: "subprocess.Popen[bytes]", out: Path) -> None:
+        self.screen, self.process, self.out = screen, process, out
+        self.window = ""
         deadline_s = time.monotonic() + PATIENCE_S
-        while text not in self.caption():
-            assert time.monotonic() < deadline_s, self.caption()
+        while not self.window:
+            assert time.monotonic() < deadline_s, out.read_text()
+            time.sleep(0.05)
+            self.window = screen.xdotool("search", "--onlyvisible", "--pid", str(process.pid))
+        screen.xdotool("windowfocus", "--sync", self.window)
+
+    def press(self, *keys: str) -> None:
+        self.screen.xdotool("key", *keys)
+
+    def face(self) -> Counter[tuple[int, int, int]]:
+        shell = self.screen.xdotool("getwindowgeometry", "--shell", self.window)
+        place = dict(re.findall("([A-Z]+)=([0-9]+)", shell))
+        return self.screen.pixels(*(int(place[name]) for name in ("X", "Y", "WIDTH", "HEIGHT")))
+
+    def shows(self, caption: str, colour: tuple[int, int, int]) -> None:
+        """Wait until caption and face do."""
+        deadline_s = time.monotonic() + PATIENCE_S
+        while True:
+            shown, counts = self.screen.xdotool("getwindowname", self.window), self.face()
+            is_text = sum(count for (r, g, b), count in counts.items() if r + g + b < 100) > 100
+            if shown == caption and counts[colour] > 300 * 20 / 2 and is_text:
+                return
+            assert time.monotonic() < deadline_s, (shown, counts.most_common(3))
             time.sleep(0.05)
 
-    def ending(self) -> str:
-        out, err = self.program.communicate(timeout=PATIENCE_S)
-        assert err == ""
-        assert self.program.returncode == 0
-        return re.sub("[0-9]+", "N", out.splitlines()[-1])
+    def ends(self, why: str) -> str:
+        """Wait for the end: with this reason. All that was printed."""
+        assert self.process.wait(PATIENCE_S) == 0
+        out = self.out.read_text()
+        assert re.fullmatch(rf"Stopped after [0-9]+ frames?, t = [0-9.]+ s: {why}\.",
+                            out.splitlines()[-1])
+        return out
 
 
 @contextmanager
-def run(display: str, *words: str) -> Iterator[Run]:
-    with subprocess.Popen([*COMMAND, *words], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                          stderr=subprocess.PIPE, text=True,
-                          env=environment(DISPLAY=display)) as program:
+def run(screen: Screen, folder: Path, *command: str) -> Iterator[Film]:
+    with (folder / "out").open("wb") as out, subprocess.Popen(
+            command or COMMAND, stdin=subprocess.DEVNULL, stdout=out, stderr=out, cwd=HERE,
+            env=environment(DISPLAY=screen.name)) as process:
         try:
-            yield Run(display, program)
+            yield Film(screen, process, folder / "out")
         finally:
-            program.kill()
+            process.kill()
 
 
-@pytest.mark.parametrize(("key", "why"), [
-    ("x", "x was pressed"), ("Escape", "Esc was pressed"), ("ctrl+c", "Ctrl-C was pressed"),
-    ("X", "x was pressed")])
-def test_a_key_in_the_window_quits(key: str, why: str, display: str) -> None:
-    with run(display, "0") as shown:
-        shown.shows("running")
-        time.sleep(0.1)  # let the film begin
-        shown.press(key)
-        assert shown.ending() == f"Stopped after N frames: {why}."
+@needs_window
+def test_caption_and_face_say_which_keys_there_are_and_whether_the_film_is_paused(
+        screen: Screen, tmp_path: Path) -> None:
+    with run(screen, tmp_path) as film:
+        film.shows(RUNNING, WHITE)
+        assert film.face().total() == 300 * 20
+        film.press("p")
+        film.shows(PAUSED, DARK_ORANGE)
+        film.press("s", "s", "ctrl+s")
+        film.shows(RUNNING, WHITE)
+        film.press("s")
+        film.shows(PAUSED, DARK_ORANGE)
+        for change in ("windowunmap", "windowmap", "windowfocus"):  # it was covered, and is not
+            film.screen.xdotool(change, "--sync", film.window)
+        film.shows(PAUSED, DARK_ORANGE)
+        film.press("p")
+        film.shows(RUNNING, WHITE)
+        film.press("x")
+        out = film.ends("x was pressed")
+    assert "\nKeys, in the little window: p or Ctrl-S pauses" in out
 
 
-@pytest.mark.parametrize("key", ["p", "ctrl+s"])
-def test_a_key_in_the_window_pauses_and_resumes_and_the_caption_says_so(
-        key: str, display: str) -> None:
-    with run(display, "0") as shown:
-        for state in ("running p: pause x: quit", "PAUSED p: go on x: quit",
-                      "running p: pause x: quit"):
-            shown.shows(state)
-            shown.press(key)
-        shown.press("x")
-        assert shown.ending() == "Stopped after N frames: x was pressed."
+@needs_window
+def test_other_keys_in_the_window_do_nothing(screen: Screen, tmp_path: Path) -> None:
+    with run(screen, tmp_path) as film:
+        film.press("Up", "F1", "q", "shift", "alt+x", "super+x", "ISO_Level3_Shift+x", "ctrl+x",
+                   "ctrl+semicolon", "alt+p", "ctrl+p", "ctrl+bracketleft")
+        film.press("p")
+        film.shows(PAUSED, DARK_ORANGE)
+        film.press("X")
+        assert film.ends("x was pressed").count("paused") == 1
 
 
-@pytest.mark.parametrize("key", ["Up", "F1", "alt+x", "shift", "q", "ctrl+x", "ctrl+p"])
-def test_other_keys_do_nothing(key: str, display: str) -> None:
-    with run(display, "0") as shown:
-        shown.press(key)
-        shown.press("p")
-        shown.shows("PAUSED")
-        shown.press("x")
-        assert shown.ending() == "Stopped after N frames: x was pressed."
+@needs_window
+def test_ctrl_c_in_the_window_cuts_the_header_s_pause_short_and_then_quits(
+        screen: Screen, tmp_path: Path) -> None:
+    code = ("import sys, airtrack; from examples import EXAMPLES; "
+            "EXAMPLES[1] = EXAMPLES[1]._replace(pause_s=1e6); sys.exit(airtrack.main(['1']))")
+    with run(screen, tmp_path, COMMAND[0], "-c", code) as film:
+        film.press("ctrl+c", "ctrl+c")
+        assert "\n   *\n  * *\n *   *\n  * *\n   *\n" in film.ends("Ctrl-C was pressed")
 
 
-def test_ctrl_c_in_the_window_cuts_the_header_s_pause_short(display: str) -> None:
-    with run(display, "10") as shown:
-        shown.press("ctrl+c")
-        shown.press("x")
-        out, _ = shown.program.communicate(timeout=PATIENCE_S)
-        assert "\n   *\n  * *\n *   *\n  * *\n   *\n" in out
-
-
-def test_closing_the_window_quits(display: str) -> None:
-    with run(display, "0") as shown:
-        close(display, int(shown.window))
-        assert shown.ending() == "Stopped after N frames: the window was closed."
-
-
-def test_the_window_is_300_by_20(display: str) -> None:
-    with run(display, "0") as shown:
-        geometry = shown.xdotool("getwindowgeometry", "--shell", shown.window)
-        assert "WIDTH=300\nHEIGHT=20\n" in geometry
-
-
-def test_the_sound_system_is_left_alone(display: str) -> None:
-    code = ("import airtrack, pygame; airtrack.main(['0', '--frames', '3']); "
-            "assert pygame.mixer.get_init() is None")
-    done = subprocess.run([COMMAND[0], "-c", code], env=environment(DISPLAY=display),
-                          cwd=os.path.dirname(COMMAND[1]), text=True, capture_output=True,
-                          check=False)
-    assert (done.returncode, done.stderr) == (0, "")
-
-
-class ClientMessage(ctypes.Structure):
-    """Xlib's XClientMessageEvent, padded to an XEvent's size."""
-
-    _fields_ = (
-        ("type", ctypes.c_int), ("serial", ctypes.c_ulong), ("send_event", ctypes.c_int),
-        ("display", ctypes.c_void_p), ("window", ctypes.c_ulong), ("message_type", ctypes.c_ulong),
-        ("format", ctypes.c_int), ("data", ctypes.c_long * 5), ("pad", ctypes.c_long * 24))
+@needs_window
+def test_esc_and_closing_the_window_quit(screen: Screen, tmp_path: Path) -> None:
+    with run(screen, tmp_path) as film:
+        film.press("Escape")
+        film.ends("Esc was pressed")
+    with run(screen, tmp_path) as film:
+        close(screen.name, int(film.window))
+        film.ends("the window was closed")
 
 
 def close(display: str, window: int) -> None:
@@ -155,7 +178,71 @@ def close(display: str, window: int) -> None:
     server = ctypes.c_void_p(x11.XOpenDisplay(display.encode()))
     protocols, delete = (x11.XInternAtom(server, name, 0)
                          for name in (b"WM_PROTOCOLS", b"WM_DELETE_WINDOW"))
-    message = ClientMessage(type=33, window=window, message_type=protocols, format=32)
-    message.data[0] = delete
-    x11.XSendEvent(server, ctypes.c_ulong(window), 0, 0, ctypes.byref(message))
+    # An XClientMessageEvent, in an XEvent's size: type, serial, send_event, display, ...
+    event = (ctypes.c_long * 24)(33, 0, 0, 0, window, protocols, 32, delete)
+    x11.XSendEvent(server, ctypes.c_ulong(window), 0, 0, event)
     x11.XCloseDisplay(server)
+
+
+@needs_window
+def test_window_and_terminal_serve_together_and_a_signal_ends_both(screen: Screen) -> None:
+    from test_terminal import Terminal
+
+    with Terminal(*COMMAND, env=environment(DISPLAY=screen.name)) as terminal:
+        terminal.until("Keys, in the little window and in this terminal: p ", "FPS")
+        terminal.type("p")
+        terminal.until("paused")
+        window = screen.xdotool("search", "--onlyvisible", "--pid", str(terminal.program.pid))
+        assert screen.xdotool("getwindowname", window) == PAUSED
+        screen.xdotool("windowfocus", "--sync", window, "key", "p")
+        terminal.until("FPS", "FPS")
+        terminal.program.terminate()
+        terminal.until(": SIGTERM.")
+        terminal.ends(143)
+
+
+@needs_window
+def test_the_sound_system_is_left_alone(screen: Screen) -> None:
+    code = ("import airtrack, pygame; airtrack.main(['0', '--frames', '3']); "
+            "assert pygame.mixer.get_init() is None")
+    done = subprocess.run([COMMAND[0], "-c", code], env=environment(DISPLAY=screen.name), cwd=HERE,
+                          text=True, capture_output=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "No window" not in done.stdout
+
+
+# Without a window.
+
+def told_why(**changes: str | None) -> str:
+    """Why there is no window: one line, and the film runs."""
+    done = program("--frames", "2", **changes)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout.endswith("\nStopped after 2 frames, t = 0.03 s: that is the frame limit.\n")
+    told = re.findall(r"^No window for the keys: (.*)\.$", done.stdout, re.MULTILINE)
+    assert len(told) == 1
+    return str(told[0])
+
+
+@pytest.mark.parametrize(("file", "text", "why"), [
+    ("pygame.py", "raise ModuleNotFoundError('No module', name='pygame')", "is not installed"),
+    ("pygame.py", "import no_such_module", "does not work (ModuleNotFoundError)"),
+    ("pygame.py", "raise ImportError('x')", "does not work (ImportError)"),
+    ("pygame.py", "raise RuntimeError", "does not work (RuntimeError)"),
+    ("pygame.py", "raise OSError('libSDL2.so')", "does not work (OSError)"),
+    ("pygame.py", "raise SystemExit(3)", "does not work (SystemExit)"),
+    ("pygame.py", "def", "does not work (SyntaxError)"),
+    ("pygame/__init__.py", "", "does not work (ModuleNotFoundError)")])
+def test_with_a_broken_pygame_one_line_says_so_and_the_film_runs(
+        file: str, text: str, why: str, tmp_path: Path) -> None:
+    (tmp_path / "pygame").mkdir()
+    (tmp_path / file).write_text(text)
+    assert told_why(PYTHONPATH=str(tmp_path), DISPLAY=":0") == f"pygame {why}"
+
+
+@pytest.mark.skipif(not HAS_PYGAME, reason="not installed: pygame")
+@pytest.mark.parametrize("changes", [
+    {}, {"DISPLAY": ":4711"}, {"DISPLAY": ":0", "SDL_VIDEODRIVER": "dummy"},
+    {"DISPLAY": ":0", "SDL_VIDEODRIVER": "offscreen"},
+    {"DISPLAY": ":0", "SDL_VIDEODRIVER": "nonsense"}], ids=str)
+def test_without_a_display_one_line_says_so_and_the_film_runs(changes: dict[str, str]) -> None:
+    assert told_why(**changes) == "there is no display"
