@@ -4,6 +4,7 @@ Not a test: a test must not depend on a machine's speed. Processor times are of 
 the least of several runs; frame rates are of a film in a pseudo-terminal.
 """
 
+import math
 import os
 import pty
 import resource
@@ -11,13 +12,17 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from timeit import repeat
+from typing import Any
 
 HERE = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(HERE))
 
-from airtrack import Scene, step  # noqa: E402
+from airtrack import Scene, exactly, step  # noqa: E402
 from examples import EXAMPLES  # noqa: E402
 
 AIRTRACK = [sys.executable, str(HERE / "airtrack.py")]
@@ -76,20 +81,78 @@ def film() -> None:
           f"{plain_s / ours_s:.1f} times as fast")
 
 
+def cost_s(scene: Scene, dt_s: float = 0.1, take: Callable[..., Any] = step) -> float:
+    """Processor time of a step of a run of the scene, the least of several runs."""
+    def run() -> None:
+        x_m, v_mps = scene.x_m, scene.v_mps
+        for _ in range(20_000):
+            x_m, v_mps, _ = take(scene, x_m, v_mps, dt_s)
+    return min(repeat(run, number=1, repeat=7, timer=time.process_time)) / 20_000
+
+
 def steps() -> None:
-    """A step of examples 8 and 10: the same scene, backward Euler and exact."""
-    def cost_s(number: int) -> float:
-        scene = Scene(**EXAMPLES[number].settings)
+    """Steps of the same scene by three methods, and a step that does nothing."""
+    eight, ten = (Scene(**EXAMPLES[number].settings) for number in (8, 10))
+    backward_s, rewind_s, replay_s = cost_s(eight), cost_s(ten), cost_s(exactly(ten))
+    print(f"a step at 10 FPS: backward + rebound {backward_s * 1e6:.2f} us, "
+          f"exact + rewind {rewind_s / backward_s:.1f} times, "
+          f"exact + replay {replay_s / backward_s:.1f} times that")
+    nothing_s = cost_s(ten, take=lambda scene, x_m, v_mps, dt_s: (x_m, v_mps, None))
+    print(f"a step that does nothing costs {nothing_s / backward_s:.0%} of backward's, "
+          f"{nothing_s / replay_s:.0%} of exact + replay's")
+    hopping = replace(exactly(ten), CR=0.8)
 
-        def run() -> None:
-            x_m, v_mps = scene.x_m, scene.v_mps
-            for _ in range(20_000):
-                x_m, v_mps, _ = step(scene, x_m, v_mps, 0.1)
-        return min(repeat(run, number=1, repeat=7)) / 20_000
+    def bounce(scene: Scene, *_: float) -> tuple[float, float, None]:
+        step(scene, 0.3, -2.0, 0.1)
+        return 0.3, -2.0, None
+    print(f"a step of exact + replay that bounces: {cost_s(hopping, take=bounce) * 1e6:.2f} us")
 
-    backward_s, exact_s = cost_s(8), cost_s(10)
-    print(f"a step at 10 FPS: backward {backward_s * 1e6:.2f} us, exact {exact_s * 1e6:.2f} us: "
-          f"{exact_s / backward_s:.1f} times")
+
+def elsewhere() -> None:
+    """The same 20 s by scipy's solve_ivp, which finds the walls as events."""
+    try:
+        from scipy.integrate import solve_ivp
+    except ImportError:
+        print("scipy is not installed: not compared")
+        return
+
+    def solve(scene: Scene, rtol: float, max_step_s: float) -> tuple[list[float], int]:
+        """Where the car is every 0.1 s, and how often it bounced."""
+        def left(_: float, y: Any) -> float:
+            return float(y[0] - scene.left_edge_m)
+
+        def right(_: float, y: Any) -> float:
+            return float(scene.right_edge_m - y[0])
+
+        for event in (left, right):
+            event.terminal, event.direction = True, -1  # type: ignore[attr-defined]
+        t_s, y, xs, bounces = 0.0, [scene.x_m, scene.v_mps], [], 0
+        while t_s < 20 and bounces < 1000:
+            part = solve_ivp(lambda _, y: (y[1], scene.a_mps2), (t_s, 20), y, events=(left, right),
+                             rtol=rtol, atol=rtol, max_step=max_step_s, dense_output=True)
+            end_s = part.t[-1]
+            xs += [float(part.sol(k / 10)[0]) for k in range(1, 201) if t_s < k / 10 <= end_s]
+            t_s, y = end_s, [part.y[0][-1], -scene.CR * part.y[1][-1]]
+            bounces += part.status == 1
+        return xs, bounces
+
+    ten, twelve = (Scene(**EXAMPLES[number].settings) for number in (10, 12))
+    thrown = Scene(v_mps=10, a_mps2=-9.81, CR=0.95)
+    def off_m(scene: Scene, xs: list[float]) -> float:
+        truth = exactly(scene)
+        true = (step(truth, truth.x_m, truth.v_mps, k / 10)[0] for k in range(1, 201))
+        return max(abs(x_m - true_m) for x_m, true_m in zip(xs, true, strict=False))
+
+    for rtol in (1e-6, 1e-10):
+        for max_step_s in (math.inf, 0.1):
+            call = partial(solve, ten, rtol, max_step_s)
+            spent_s = min(repeat(call, number=1, repeat=5, timer=time.process_time))
+            print(f"solve_ivp, rtol {rtol:g}, max_step {max_step_s}, example 10: "
+                  f"{spent_s / 200 / cost_s(exactly(ten)):.0f} times exact + replay at 10 FPS, "
+                  f"{off_m(ten, call()[0]):.1g} m off; with v = 10, a = -9.81, CR = 0.95 "
+                  f"{off_m(thrown, solve(thrown, rtol, max_step_s)[0]):.2g} m off")
+    xs, bounces = solve(twelve, 1e-6, 0.1)
+    print(f"solve_ivp, example 12: after {bounces} bounces it is at t = {len(xs) / 10} s")
 
 
 def rates() -> None:
@@ -100,6 +163,16 @@ def rates() -> None:
         first, last = moments_s[2 * fps], moments_s[-2]
         held = (len(moments_s) - 2 - 2 * fps) / (last - first) / fps
         print(f"{fps} FPS in a terminal: held to {100 * held:.2f} %")
+
+
+def plain_sleep() -> None:
+    """What the rates below would be with a sleep of dt after each frame."""
+    for fps in (300, 240):
+        began_s = time.perf_counter()
+        for _ in range(3 * fps):
+            time.sleep(1 / fps)
+        held = 3 / (time.perf_counter() - began_s)
+        print(f"a sleep of 1/{fps} s after frames that cost nothing: {held:.1%} of {fps} FPS")
 
 
 def start() -> None:
@@ -132,5 +205,7 @@ def in_terminal(*words: str) -> list[tuple[float, int]]:
 if __name__ == "__main__":
     film()
     steps()
+    elsewhere()
     start()
+    plain_sleep()
     rates()
