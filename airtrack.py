@@ -161,7 +161,7 @@ def rewind(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) ->
     return wall_m if is_beyond_again else x_m, v_mps
 
 CORRECTIONS = {"none": none, "surface": surface, "rebound": rebound, "rewind": rewind}
-EXACT_ONLY = ("rewind", "replay")
+EXACT_ONLY = ("rewind", "replay")  # they undo or follow that motion
 
 def step(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> tuple[float, float, float | None]:
     """One frame of dt_s: move the car, settle any collision. Returns x_m, v_mps, mark_m.
@@ -173,7 +173,7 @@ def step(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> tuple[float, fl
     wall_m = scene.to_track(free_m)
     is_beyond = wall_m != free_m
     if scene.correction == "replay":
-        # Where v changed its sign, the car may have been beyond a wall and come back.
+        # Only where v changed its sign may the car have been beyond a wall and come back.
         if is_beyond or v_mps * free_mps <= 0:
             x_m, v_mps = replay(scene, x_m, v_mps, dt_s)
             return x_m, v_mps, None if (x_m, v_mps) == (free_m, free_mps) else free_m
@@ -525,6 +525,8 @@ def conclusion(points: Points, pixel_m: float) -> str:
 
 def new_figure(file: str) -> Any:
     """A picture with its title, by matplotlib. Raises ValueError if it could not be saved."""
+    if not os.path.splitext(file)[1]:
+        raise ValueError(f"--save needs a FILE that ends in .png, .svg or .pdf, not {file!r}")
     try:
         from matplotlib.figure import Figure
         figure = Figure(figsize=(8, 6), dpi=150, layout="constrained")

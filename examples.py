@@ -349,8 +349,7 @@ class Keys:
         Only a run that is still there a second later, because it hangs in a write to a terminal
         that no longer reads, is ended at once.
         """
-        if number not in self.noted:  # Ctrl-Z twice is one suspension, and one fg
-            self.noted.append(number)
+        self.noted.append(number)
         now_s = time.monotonic()
         if signal.Signals(number).name not in QUIT_SIGNALS:
             return
@@ -413,11 +412,14 @@ class Keys:
             self.why_quit, self.status = why, status
 
     def suspend(self) -> None:
-        """Ctrl-Z: lend the terminal to the shell until fg."""
+        """Ctrl-Z, once or several times before the process stops: lend the terminal until fg."""
         self.terminal.give_back()
+        signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGTSTP])
         signal.signal(signal.SIGTSTP, signal.SIG_DFL)
-        signal.raise_signal(signal.SIGTSTP)  # the process stops here
+        signal.raise_signal(signal.SIGTSTP)
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGTSTP])  # the process stops here
         signal.signal(signal.SIGTSTP, self.note)
+        self.noted = [number for number in self.noted if number != signal.SIGTSTP]
 
     def is_cut_short(self, pause_s: float) -> bool:
         """Leave time to read the header; whether Ctrl-C cut it short."""

@@ -301,7 +301,8 @@ def test_the_saved_picture_explains_itself(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(("name", "why"), [
     ("folder.png", "directory"), ("nowhere/chart.png", "No such file"), ("chart.doc", "doc"),
-    ("chart", ""), ("locked/chart.png", "ermission"), ("chart.pgf", "tex")])
+    ("chart", "ends in .png, .svg or .pdf"), ("locked/chart.png", "ermission"),
+    ("chart.pgf", "tex")])
 def test_a_file_that_cannot_be_written_is_refused_before_the_measuring(
         name: str, why: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
         capsys: Capture) -> None:

@@ -33,6 +33,13 @@ import termios
 PATIENCE_S = 30  # for what must come: only a test that fails waits so long
 
 
+def sit_down() -> None:
+    """At the terminal that is standard input. Ctrl-C works there, even if the tests ignore it."""
+    fcntl.ioctl(0, termios.TIOCSCTTY, 0)
+    for number in (signal.SIGINT, signal.SIGQUIT, signal.SIGHUP, signal.SIGTERM):
+        signal.signal(number, signal.SIG_DFL)
+
+
 class Terminal:
     """A program in a pseudo-terminal of its own, as somebody at the keyboard sees it."""
 
@@ -44,8 +51,7 @@ class Terminal:
         self.all = self.text = ""  # all that came; what is still to be looked at, without colours
         self.program = subprocess.Popen(
             command, stdin=self.theirs, stdout=self.theirs, stderr=stderr or self.theirs, cwd=HERE,
-            env=env or environment(PS1="$ "), start_new_session=True,
-            preexec_fn=lambda: fcntl.ioctl(0, termios.TIOCSCTTY, 0))
+            env=env or environment(PS1="$ "), start_new_session=True, preexec_fn=sit_down)
 
     def __enter__(self) -> "Terminal":
         return self

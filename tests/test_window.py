@@ -56,8 +56,9 @@ class Screen:
 def screen(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Screen]:
     read, write = os.pipe()
     folder = tmp_path_factory.mktemp("screen")
+    # Without -noreset it starts anew when its last window closes, and loses what comes meanwhile.
     with subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", "800x600x24",
-                           "-fbdir", str(folder)], pass_fds=[write],
+                           "-noreset", "-fbdir", str(folder)], pass_fds=[write],
                           stderr=subprocess.DEVNULL) as server:
         os.close(write)
         with os.fdopen(read) as pipe:
@@ -72,8 +73,8 @@ class Film:
         self.screen, self.process, self.out = screen, process, out
         self.window = ""
         deadline_s = time.monotonic() + PATIENCE_S
-        while not self.window:
-            assert time.monotonic() < deadline_s, out.read_text()
+        while not self.window or screen.xdotool("getwindowname", self.window) != RUNNING:
+            assert time.monotonic() < deadline_s, out.read_text()[:1000]
             time.sleep(0.05)
             self.window = screen.xdotool("search", "--onlyvisible", "--pid", str(process.pid))
         screen.xdotool("windowfocus", "--sync", self.window)
