@@ -419,7 +419,8 @@ class Keys:
         signal.raise_signal(signal.SIGTSTP)
         signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGTSTP])  # the process stops here
         signal.signal(signal.SIGTSTP, self.note)
-        self.noted = [number for number in self.noted if number != signal.SIGTSTP]
+        while signal.SIGTSTP in self.noted:  # in place: a signal may be noted meanwhile
+            self.noted.remove(signal.SIGTSTP)
 
     def is_cut_short(self, pause_s: float) -> bool:
         """Leave time to read the header; whether Ctrl-C cut it short."""

@@ -2,6 +2,7 @@
 
 import io
 import re
+import signal
 from itertools import pairwise
 
 import pytest
@@ -228,6 +229,36 @@ def test_ctrl_c_cuts_the_header_s_pause_short_and_a_diamond_says_so(
     out = capsys.readouterr().out
     assert diamond in out
     assert out.endswith("Stopped after 0 frames, t = 0.00 s: x was pressed.\n")
+
+
+def test_on_a_terminal_the_pause_s_notice_stands_only_until_the_run_goes_on(
+        clock: Clock, monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
+    monkeypatch.setattr("sys.stdout.isatty", lambda: True)
+    Keyboard(clock, monkeypatch, t4_05="p", t6="s", t7="x")
+    main(["99", "fps_target=10"])
+    notice, frames = re.compile(r"paused after frame \d+, t = [0-9.]+ s: [^\r\n]*"), 0
+    for line in capsys.readouterr().out.split("\n"):
+        found = notice.search(line)
+        if found:
+            rest = line[found.end():]
+            assert rest.startswith("\r" + " " * len(found[0]) + "\r")
+            frames += 1
+    assert frames == 2
+
+
+def test_of_several_signals_the_first_is_the_reason_and_Ctrl_C_in_the_header_is_none(
+        clock: Clock, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("os._exit", lambda status: pytest.fail("ended at once"))
+    keys = examples.Keys()
+    keys.is_reading = True
+    keys.note(signal.SIGINT, None)
+    keys.look()
+    assert (keys.is_reading, keys.why_quit) == (False, "")
+    clock.now_s += 2
+    for number in (signal.SIGTERM, signal.SIGINT):
+        keys.note(number, None)
+    keys.look()
+    assert (keys.why_quit, keys.status) == ("SIGTERM", 128 + signal.SIGTERM)
 
 
 def test_the_help_line_names_the_places_in_which_keys_work(
