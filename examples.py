@@ -9,10 +9,12 @@ from __future__ import annotations
 import contextlib
 import os
 import re
+import shutil
 import signal
 import sys
 import time
 import warnings
+from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 if sys.platform == "win32":
@@ -33,12 +35,11 @@ class Example(NamedTuple):
     pause_s: float = 3.0  # to read the header in
     details: bool = False  # shown even without d
 
-
 ELASTIC = {"x_m": 2.0, "a_mps2": -2.0, "CR": 1.0, "show_start_mark": True}
 COARSE = ELASTIC | {"fps_target": 10.0}
 EXACT = COARSE | {"motion": "exact", "correction": "rewind"}
 QUICK = {"x_m": 1.65, "v_mps": 40.0, "CR": 1.0, "fps_target": 10.0}
-IRREGULAR = {"use_observed_dt": True}
+IRREGULAR = {"use_observed_dt": True, "jitter": 0.25}
 
 EXAMPLES = {
     0: Example("The one-pager: the whole engine in its simplest form", {
@@ -48,7 +49,7 @@ EXAMPLES = {
         "show_collision_mark": False},
         "An air track: * is the car, | are the walls, every line is a moment. This is the engine "
         "in its simplest form; python airtrack.py 1 begins the tour, -h lists it.",
-        pause_s=0.0, details=True),
+        details=True),
     1: Example("A first look", {
         "x_m": 2.0, "a_mps2": -1.5, "CR": 0.7, "show_collision_mark": False},
         "Every line is one moment: | are the walls, * is the car. Keep your eyes on the bottom "
@@ -58,8 +59,8 @@ EXAMPLES = {
         "itself, after 251 frames.", pause_s=5.0),
     2: Example("No correction", {
         "x_m": 1.65, "v_mps": 2.7, "CR": 1.0, "correction": "none", "show_collision_mark": False},
-        "Nothing puts the car back on the track after a collision: look how it is drawn inside the "
-        "walls, up to 8 cm beyond them. It is elastic (CR = 1) and nothing pulls at it, so it "
+        "Nothing puts the car back on the track after a collision: look how it is drawn beyond the "
+        "walls, by up to 8 cm. It is elastic (CR = 1) and nothing pulls at it, so it "
         "comes back out as fast as it went in, and never stops: press x."),
     3: Example("No correction, and stuck", {
         "x_m": 2.0, "a_mps2": -1.5, "CR": 0.6, "correction": "none", "auto_off": False,
@@ -72,7 +73,7 @@ EXAMPLES = {
     4: Example("A high frame rate", {
         "x_m": 0.2, "v_mps": 10.0, "a_mps2": -10.0, "CR": 0.8, "fps_target": 300.0,
         "show_collision_mark": False},
-        "At 300 FPS a bounce is hundreds of lines long. It stops after 1830 frames; scroll back "
+        "At 300 FPS a bounce is hundreds of lines long. It stops after 1880 frames; scroll back "
         "then, as far as your terminal keeps them, and the shrinking bounces are drawn as a tail. "
         "The car starts just beyond the left wall, at 10 m/s: a collision in each of the first two "
         "frames, which is why it leaves the wall at 6.4 m/s."),
@@ -80,11 +81,14 @@ EXAMPLES = {
         "x_m": 2.0, "v_mps": 3.0, "a_mps2": 2.0, "CR": 0.7},
         "Pulled to the right. Each 0 is where the move alone had put the car, beyond the wall, and "
         "the * in its line is where the correction put it instead: on the other side of the wall, "
-        "at 70 % of that distance. At rest after 236 frames."),
+        "at 70 % of that distance. Most collisions are too near the wall for that: 7 of 19 show a "
+        "0 at full width, first in frame 67; in 80 columns one does, in frame 112. With "
+        "fps_target=10 each of the first five bounces does (x ends it). At rest after 236 frames."),
     6: Example("Example 5 zoomed out", {
         "x_m": 2.0, "v_mps": 3.0, "a_mps2": 2.0, "CR": 0.7, "m_to_px": 30.0},
-        "The drawing changes, the physics does not: with d the figures are those of example 5, and "
-        "the run ends after 236 frames again."),
+        "The drawing changes, at full width to 58 columns from wall to wall instead of 107; the "
+        "physics does not: with d the figures are those of example 5, and the run ends after 236 "
+        "frames again."),
     7: Example("Elastic, small steps", ELASTIC | {"fps_target": 240.0},
         "No speed is lost in a bounce, so the car should come back to the start mark, the dot at "
         "2 m, every time. At 240 FPS it does, to a centimetre, which only d shows: it comes back "
@@ -95,21 +99,24 @@ EXAMPLES = {
         "12 cm short of the start mark; after the second one, whose error undoes the first's, "
         "at the mark; and so on by turns."),
     9: Example("Elastic, large and irregular steps", COARSE | IRREGULAR,
-        "Example 8 with the length that each frame really had (the observed dt). No two of them "
-        "are quite the same, so neither are the bounces, nor any two runs of this example."),
+        "Example 8 with frames that are up to a quarter longer or shorter (jitter), each moved by "
+        "the length that the one before it really had (observed dt). So the errors of the bounces "
+        "are irregular, too: it turns elsewhere each time, first at 1.81 m (with --fast, where no "
+        "clock is observed, then at 1.68, 1.59, 1.51 m), and later beyond the start mark as well."),
     10: Example("The exact solution", EXACT,
         "Elastic, at only 10 FPS. The car is moved by the formulas of kinematics, and each bounce "
         "is worked out at its own moment. So it comes back to the start mark, the dot at 2 m, "
         "every time; in example 8, by Euler's method, it does not. The first bounce is in frame "
-        "14: p pauses, and s, s, s goes through it."),
+        "14: press p while this text stands, and then s fourteen times."),
     11: Example("The exact solution, irregular steps", EXACT | IRREGULAR,
-        "Example 10 with the length that each frame really had. The exact solution does not depend "
-        "on how the time is cut into frames: the car comes back to the start mark all the same."),
+        "Example 10 with the irregular frames of example 9. The exact solution does not depend on "
+        "how the time is cut into frames: the car comes back to the start mark all the same."),
     12: Example("The exact solution, losing energy", EXACT | IRREGULAR | {
         "CR": 0.8, "correction": "replay"},
         "Example 11, keeping 80 % of the speed at each bounce. The bounces come faster and faster: "
         "infinitely many before t = 11.91 s, the Zeno point, from where on the car is at rest. One "
-        "frame may hold many of them, and the last infinitely many: that takes replay."),
+        "frame may hold many of them, the last one infinitely many: that takes replay. From frame "
+        "110 of 122 on they are lower than a column: the car stands at the wall."),
     13: Example("Forward Euler gains energy", COARSE | {
         "motion": "forward", "show_exact_mark": True},
         "Example 8 by forward Euler. Each step adds a^2 dt^2/2 = 0.02 m^2/s^2 to the car's energy "
@@ -131,8 +138,8 @@ EXAMPLES = {
         "apart in frame 2, and as much as 0.9 m within 20 s; the error is with d."),
 }
 OWN_SCENE = Example("Your own scene", {},
-    "A car at rest, until you set it going: python airtrack.py 99 x_m=1 v_mps=3 CR=0.9 d, for "
-    "example. python airtrack.py -h lists all settings.")
+    "Set the start, the pull, the walls and the methods as you like: python airtrack.py 99 x_m=1 "
+    "v_mps=3 CR=0.9 d, for example; python airtrack.py -h lists all settings.")
 
 
 # ==== The terminal's keys =======================================================================
@@ -141,11 +148,10 @@ if sys.platform == "win32":
     class Terminal:
         """The keys of a Windows console, which msvcrt gives one by one and unechoed."""
 
-        is_raw = False  # whether its keys come to this process
+        is_raw = sys.stdin.isatty() and sys.stdout.isatty()  # whether its keys come to this process
 
         def read(self) -> str:
             """The keys pressed since the last call, as characters."""
-            self.is_raw = sys.stdin.isatty() and sys.stdout.isatty()
             keys = ""
             while self.is_raw and msvcrt.kbhit():
                 key = msvcrt.getwch()
@@ -155,15 +161,15 @@ if sys.platform == "win32":
                     keys += key
             return keys
 
-        def give_back(self) -> None:
-            """Nothing to restore: the console was not changed."""
+        def take(self) -> None:
+            """Nothing to change in the console, and nothing to give back."""
+
+        give_back = take
 
 else:
     # What a terminal sends for a key that is no character: Esc [ ... for an arrow, Esc O ... for
-    # F1 (O 2 ... with Shift), Esc and the character for Alt. Only an Esc that nothing follows is
-    # the Esc key.
-    SEQUENCE = re.compile(rb"\x1b+(\[[0-?]*[ -/]*[@-~]|O[0-9]*[^\x1b]|[^\x1b])?")
-    UNFINISHED = re.compile(rb"\x1b(\[[0-?]*[ -/]*|O[0-9]*)?\Z")
+    # F1, Esc and the character for Alt. Only an Esc that nothing follows is the Esc key.
+    SEQUENCE = re.compile(rb"\x1b+(\[?[\[O][0-9;]*[A-Za-z~]|[^\x1b\[O])")
 
     class Terminal:
         """The keys of a terminal, one by one, unechoed. It is touched from the foreground only."""
@@ -172,59 +178,48 @@ else:
         found: Any = None  # its mode, as it was found
 
         def is_in_foreground(self) -> bool:
-            """Whether the terminal is this process's to read from and to set.
-
-            With the output in a pipe, it is left to the program at the pipe's end.
-            """
+            """Whether the terminal is ours; with the output in a pipe it is the reader's."""
             try:
                 return os.isatty(0) and os.isatty(1) and os.tcgetpgrp(0) == os.getpgrp()
             except OSError:  # not its controlling terminal, or gone
                 return False
 
         def take(self) -> None:
-            """Keys without waiting for Enter, without echo, and with Ctrl-S as a key."""
-            if not self.is_in_foreground():
-                self.is_raw = False
-            elif not self.is_raw:
-                with contextlib.suppress(termios.error):  # it may have gone just now
-                    self.found = self.found or termios.tcgetattr(0)
+            """Keys without Enter and echo, Ctrl-S too; at each look anew, as after fg."""
+            self.is_raw = self.is_in_foreground()
+            with contextlib.suppress(termios.error):  # it may have gone just now
+                if self.is_raw:
                     mode = termios.tcgetattr(0)
+                    self.found = self.found or list(mode)
                     mode[0] &= ~termios.IXON
                     mode[3] &= ~(termios.ICANON | termios.ECHO)
                     termios.tcsetattr(0, termios.TCSANOW, mode)
-                    self.is_raw = True
 
         def give_back(self) -> None:
             """Leave the terminal as it was found."""
-            if self.is_raw and self.is_in_foreground():
+            if self.found and self.is_in_foreground():
                 with contextlib.suppress(termios.error):
                     termios.tcsetattr(0, termios.TCSANOW, self.found)
-            self.is_raw = False
 
         def read(self) -> str:
             """The keys pressed since the last call, as characters."""
             self.take()
-            keys, rest_s = b"", 0.0
-            # A sequence may come in two pieces: the rest follows at once, or never. Not more than
-            # 4096 bytes at a time, but for such a rest.
-            while self.is_raw and (len(keys) < 4096 or rest_s) and select.select(
-                    [0], [], [], rest_s)[0]:
-                try:
-                    piece = os.read(0, 1024)
-                except OSError:  # not open for reading, or gone
-                    break
-                if not piece:
-                    break
-                keys += piece
-                rest_s = 0.05 if UNFINISHED.search(keys[-32:]) else 0.0
-            keys = SEQUENCE.sub(lambda found: b"" if found[1] else b"\x1b", keys)
-            return keys.decode("ascii", "ignore")
+            keys = self.piece(0.0)
+            if keys.endswith(b"\x1b"):  # the first byte of an arrow? The others follow at once.
+                keys += self.piece(0.05)
+            return SEQUENCE.sub(b"", keys).decode("ascii", "ignore")
+
+        def piece(self, wait_s: float) -> bytes:
+            """What the terminal has to read, now or within wait_s; b"" if nothing."""
+            with contextlib.suppress(OSError):  # not open for reading, or gone
+                if self.is_raw and select.select([0], [], [], wait_s)[0]:
+                    return os.read(0, 1024)
+            return b""
 
 
 # ==== The window's keys =========================================================================
 
 WINDOW_CLOSED = "closed"
-
 
 class Window:
     """The little pygame window. Without pygame or a display it stays shut, for why_shut."""
@@ -233,10 +228,8 @@ class Window:
     pygame: Any
 
     def open(self) -> None:
-        """Open the window, or set why_shut.
-
-        Only pygame's display and font are initialised: its sound prints errors where there is none.
-        """
+        """Open the window, or set why_shut. Pygame's sound is left shut: it might print errors."""
+        os.environ["SDL_NO_SIGNAL_HANDLERS"] = "1"  # SDL would set one for SIGINT
         if sys.platform == "linux" and "WAYLAND_DISPLAY" not in os.environ:
             if "DISPLAY" not in os.environ:
                 self.why_shut = "there is no display"
@@ -300,110 +293,74 @@ class Window:
 
 # ==== Both together, and the signals ============================================================
 
-PAUSE_KEYS = ("p", "P", "\x13")  # \x13: Ctrl-S
-STEP_KEYS = ("s", "S")
-QUIT_KEYS = {"x": "x was pressed", "X": "x was pressed", "\x1b": "Esc was pressed",
+QUIT_KEYS = {"x": "x was pressed", "\x1b": "Esc was pressed",
              WINDOW_CLOSED: "the window was closed"}
-CTRL_C = "\x03"
+CTRL_C, CTRL_S = "\x03", "\x13"
 SLICE_S = 0.05  # how long a key or a signal waits for an answer, at the most
-QUIT_SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP", "SIGQUIT")  # Windows has only the first two
-SIGNALS = (*QUIT_SIGNALS, "SIGTSTP", "SIGCONT")
-
+SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP", "SIGQUIT", "SIGTSTP")  # Windows has only the first two
 
 class Keys:
-    """The keys of a run. `with Keys() as keys:` takes the terminal, and gives it back.
+    """The keys of a run, and its signals, which are keys too.
 
-    why_quit: why the run is to end; empty until then. status: the exit status.
-
-    Signals are keys, too: their handler only notes them for the next look. So nothing raises in
-    the middle of things, and the terminal is changed in one place at a time.
+    why_quit: why the run is to end; empty until then. status: the exit status then. frame and t_s:
+    how far the film is, as the run tells it.
     """
 
     def __init__(self) -> None:
         self.why_quit, self.status = "", 0
+        self.frame, self.t_s = 0, 0.0
         self.is_paused, self.steps = False, 0  # steps: frames to show although it is paused
-        self.is_reading = False  # the header, which Ctrl-C cuts short
+        self.is_reading = True  # the header, which Ctrl-C cuts short
+        self.is_suspending = False  # Ctrl-Z was pressed
         self.notice = ""  # that the run is paused, once it is said
         self.terminal, self.window = Terminal(), Window()
-        self.handlers: dict[int, Any] = {}
-        self.noted: list[int] = []
-        self.first_s = 0.0  # when the first signal to quit came
-
-    def __enter__(self) -> Keys:
-        for name in SIGNALS:
-            number = getattr(signal, name, None)
-            if number and signal.getsignal(number) != signal.SIG_IGN:
-                self.handlers[number] = signal.signal(number, self.note)
-        self.terminal.read()
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.terminal.give_back()
-        self.window.close()
-        for number, handler in self.handlers.items():
-            signal.signal(number, handler)
 
     def note(self, number: int, _: object) -> None:
-        """A signal: note it for the next look.
+        """A signal: only note it, for the next look, so that nothing raises in mid-action."""
+        name = signal.Signals(number).name
+        if name == "SIGINT":
+            self.press(CTRL_C)
+        elif name == "SIGTSTP":
+            self.is_suspending = True
+        else:
+            self.quit(name, 128 + number)
 
-        Only a run that is still there a second later, because it hangs in a write to a terminal
-        that no longer reads, is ended at once.
-        """
-        self.noted.append(number)
-        now_s = time.monotonic()
-        if signal.Signals(number).name not in QUIT_SIGNALS:
-            return
-        if self.first_s and now_s > self.first_s + 1:
-            self.terminal.give_back()
-            os._exit(128 + number)
-        self.first_s = self.first_s or now_s
+    def places(self) -> list[str]:
+        """Where there are keys."""
+        window = [] if self.window.why_shut else ["in the little window"]
+        return window + (["in this terminal"] if self.terminal.is_raw else [])
 
-    def open_window(self) -> None:
-        """Open the window; say so if there is none."""
-        self.window.open()
+    def help(self, pause_s: float) -> Iterator[str]:
+        """What to press, and where, in paragraphs."""
+        where = " and ".join(self.places())
         if self.window.why_shut:
-            print(f"No window for the keys: {self.window.why_shut}.")
-
-    def help(self) -> str:
-        """Which keys do what, and where."""
-        places = []
-        if not self.window.why_shut:
-            places.append("in the little window")
-        if self.terminal.is_raw:
-            places.append("in this terminal")
-        if not places:
-            return "Keys: Ctrl-C quits."
-        return (f"Keys, {' and '.join(places)}: p or Ctrl-S pauses, s steps one frame "
-                "further, x or Esc quits.")
+            yield f"No window for the keys: {self.window.why_shut}."
+        if where:
+            yield f"Keys, {where}: p or Ctrl-S pauses, s steps one frame further, x or Esc quits."
+        hint = "p holds this text, Ctrl-C begins it" if where else "Ctrl-C begins it, then quits"
+        yield f"The film begins in {pause_s:g} s; {hint}."
 
     def look(self) -> None:
-        """Act on the signals and the keys that came since the last look."""
-        while self.noted:
-            name = signal.Signals(self.noted.pop(0)).name
-            if name == "SIGINT":
-                self.press(CTRL_C)
-            elif name == "SIGTSTP":
-                self.suspend()
-            elif name == "SIGCONT":  # somebody else may have set the terminal meanwhile
-                self.terminal.is_raw, self.notice = False, ""
-            else:
-                self.quit(name, 128 + signal.Signals[name])
+        """Act on the keys that came since the last look."""
+        if self.is_suspending:
+            self.suspend()
         for key in [*self.terminal.read(), *self.window.read()]:
             self.press(key)
 
     def press(self, key: str) -> None:
         """Act on a key."""
-        if key in PAUSE_KEYS:
+        key = key.lower()
+        if key in ("p", CTRL_S):
             self.is_paused, self.steps = not self.is_paused, 0
-        elif key in STEP_KEYS:
+        elif key == "s":
             self.is_paused, self.steps = True, self.steps + 1
         elif key in QUIT_KEYS:
             self.quit(QUIT_KEYS[key])
         elif key == CTRL_C and self.is_reading:
-            self.is_reading, self.first_s = False, 0.0
+            self.is_reading = False
         elif key == CTRL_C:
             self.quit("Ctrl-C was pressed")
-        if key in (*PAUSE_KEYS, *STEP_KEYS):
+        if key in ("p", CTRL_S, "s"):
             self.window.show(self.is_paused)
 
     def quit(self, why: str, status: int = 0) -> None:
@@ -412,47 +369,39 @@ class Keys:
             self.why_quit, self.status = why, status
 
     def suspend(self) -> None:
-        """Ctrl-Z, once or several times before the process stops: lend the terminal until fg."""
+        """Ctrl-Z: lend the terminal until fg."""
         self.terminal.give_back()
-        signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGTSTP])
         signal.signal(signal.SIGTSTP, signal.SIG_DFL)
-        signal.raise_signal(signal.SIGTSTP)
-        signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGTSTP])  # the process stops here
+        signal.raise_signal(signal.SIGTSTP)  # the process stops here
         signal.signal(signal.SIGTSTP, self.note)
-        while signal.SIGTSTP in self.noted:  # in place: a signal may be noted meanwhile
-            self.noted.remove(signal.SIGTSTP)
+        self.is_suspending, self.notice = False, ""
 
-    def is_cut_short(self, pause_s: float) -> bool:
-        """Leave time to read the header; whether Ctrl-C cut it short."""
-        if not pause_s:
-            return False
-        self.is_reading = True
-        self.wait_until(time.perf_counter() + pause_s, 0, 0.0)
-        was_reading, self.is_reading = self.is_reading, False
-        return not was_reading
+    def leave_time(self, pause_s: float) -> None:
+        """Leave time to read the header; where Ctrl-C cuts it short, a diamond says so."""
+        if self.is_reading:
+            self.wait_until(time.perf_counter() + pause_s)
+        if not self.is_reading:
+            print("   *\n  * *\n *   *\n  * *\n   *")
+        self.is_reading = False
 
-    def wait_until(self, moment_s: float, frame: int, t_s: float) -> bool:
-        """Sleep until that moment of time.perf_counter, and for as long as the run is paused.
-
-        frame and t_s: how far the film is, to be told when it is paused. Returns whether the wait
-        was another one than until the moment, because of a pause or a step.
-        """
+    def wait_until(self, moment_s: float) -> bool:
+        """Sleep until then, by time.perf_counter, and while paused. Whether a pause held it."""
         was_reading, was_held = self.is_reading, False
         while True:
             self.look()
             is_held = self.is_paused and not self.steps
             was_held = was_held or self.is_paused
-            left_s = moment_s - time.perf_counter()
-            if self.why_quit or was_reading != self.is_reading or (
-                    not is_held and (left_s <= 0 or self.steps)):
+            left_s = 0.0 if self.steps else moment_s - time.perf_counter()
+            is_cut = was_reading and not self.is_reading
+            if self.why_quit or is_cut or (left_s <= 0 and not is_held):
                 break
             if is_held and not self.notice:
-                self.tell(f"paused after frame {frame}, t = {t_s:.2f} s: "
+                self.tell(f"paused after frame {self.frame}, t = {self.t_s:.2f} s: "
                           "p goes on, s steps, x quits")
             time.sleep(SLICE_S if is_held else min(SLICE_S, left_s))
         self.tell("")
-        if self.steps and not was_reading:
-            self.steps -= 1
+        if not was_reading:
+            self.steps = max(0, self.steps - 1)
         return was_held
 
     def tell(self, notice: str) -> None:
@@ -460,6 +409,32 @@ class Keys:
         is_terminal = sys.stdout.isatty()
         if is_terminal and self.notice:
             print("\r" + " " * len(self.notice) + "\r", end="", flush=True)
+        if is_terminal:  # what wraps could not be taken back
+            notice = notice[:shutil.get_terminal_size().columns - 1]
         if notice:
             print(notice, end="" if is_terminal else "\n", flush=True)
         self.notice = notice
+
+def redirect(stack: contextlib.ExitStack, handler: Any, *names: str) -> None:
+    """Let the handler have these signals until the stack closes, but those that are ignored."""
+    for name in names:
+        number = getattr(signal, name, None)
+        if number and signal.getsignal(number) != signal.SIG_IGN:
+            stack.callback(signal.signal, number, signal.signal(number, handler))
+
+@contextlib.contextmanager
+def taken_keys() -> Iterator[Keys]:
+    """Take window, signals and terminal for a run, in this order; give them back in the reverse.
+
+    A display that accepts and does not answer hangs pygame. Then nothing is raw yet, or any more,
+    and Ctrl-C, whose handler is the system's meanwhile, ends the program.
+    """
+    keys = Keys()
+    with contextlib.ExitStack() as stack:
+        redirect(stack, signal.SIG_DFL, "SIGINT")
+        keys.window.open()
+        stack.callback(keys.window.close)
+        redirect(stack, keys.note, *SIGNALS)
+        stack.callback(keys.terminal.give_back)
+        keys.terminal.take()
+        yield keys
