@@ -1,19 +1,17 @@
-"""Where each method may be used: one test, or two, for each way in which a method fails.
+"""Where each method may be used: a test, or two, for each way in which a method fails.
 
 Each states the law first, from the algebra of a frame, and then checks it over a range of scenes.
 E is the energy v^2/2 - a x; a wall's side is -1 (left) or +1 (right); towards it means outwards.
 """
 
 import math
-from dataclasses import replace
-from itertools import pairwise
 from typing import Any
 
 import pytest
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
-from airtrack import Scene, exactly, step
+from airtrack import Scene, step
 
 speeds = st.floats(-50, 50)
 pulls = st.floats(-50, 50)
@@ -40,18 +38,6 @@ def test_each_step_changes_the_energy_by_the_law_of_its_method(
     assert change == pytest.approx(sign * (a_mps2 * dt_s) ** 2 / 2, abs=1e-14 * size + 1e-300)
 
 
-def test_forward_euler_on_an_elastic_track_gains_half_its_energy_in_20_s_and_exact_none() -> None:
-    def energy_after_20_s(motion: str, correction: str) -> float:
-        scene = Scene(x_m=2.0, a_mps2=-2.0, CR=1.0, motion=motion, correction=correction)
-        x_m, v_mps = 2.0, 0.0
-        for _ in range(20 * 30):
-            x_m, v_mps, _ = step(scene, x_m, v_mps, 1 / 30)
-        return v_mps**2 / 2 + 2.0 * (x_m - 0.25)
-
-    assert energy_after_20_s("forward", "rebound") > 1.5 * 3.5
-    assert energy_after_20_s("exact", "replay") == pytest.approx(3.5, rel=1e-12)
-
-
 # 2. Sticking, under correction none. A frame has found the car a distance q beyond a wall into
 #    which g accelerates it, has turned it round and left it the speed u outwards, off the wall.
 #    The next frame takes it off the wall by
@@ -60,7 +46,7 @@ def test_forward_euler_on_an_elastic_track_gains_half_its_energy_in_20_s_and_exa
 #    the wall again and turns it inwards, so it moves inwards by some m and is turned back. Then
 #    the next move out is at most CR m - g dt^2 (backward), or CR m - (1 + CR) g dt^2/2 (exact):
 #    less than m, which it just lost. So with CR < 1 a car that does not get out at once never
-#    does. (Forward Euler may shake itself loose again, by the energy that it gains.)
+#    does. (Forward Euler may creep out again, by the energy that it gains.)
 
 @pytest.mark.parametrize("motion", ["backward", "exact"])
 @given(side=sides, inside=st.floats(0, 1), w_mps=st.floats(0.01, 50), g_mps2=st.floats(0, 50),
@@ -84,6 +70,15 @@ def test_without_correction_a_car_that_is_not_out_at_once_is_stuck_for_good(
     for _ in range(200 if out_m < q_m else 1):
         x_m, v_mps, _ = step(scene, x_m, v_mps, dt_s)
         assert (side * x_m > 1) is (out_m < q_m)
+
+
+def test_forward_euler_may_creep_out_of_the_wall() -> None:
+    scene = Scene(motion="forward", correction="none", CR=0.48, a_mps2=-2.5, x_m=2.0)
+    (x_m, v_mps, _), beyond = (2.0, 0.0, None), []
+    for _ in range(63):
+        x_m, v_mps, _ = step(scene, x_m, v_mps, 1 / 20)
+        beyond.append(x_m < 0.25)
+    assert beyond[-39:] == [True] * 38 + [False]
 
 
 # 3. The rebound's throw. It puts the car from overlap beyond a wall to CR overlap off it, so
@@ -147,35 +142,42 @@ def test_from_the_surface_the_car_leaves_up_to_a_frame_late(
     assert (true_m - after_m) / after_mps == pytest.approx(inside * dt_s, abs=1e-9)
 
 
-# 5. Rewind. A car at a distance d from a wall, at u towards it and pulled into it by g, is there
-#    after t1 at s, with s^2 = u^2 + 2 g d, leaves it at CR s, and is back after h = 2 CR s/g. If
-#    the rest of the frame, r = dt - t1, is shorter than h, it ends CR s r - g r^2/2 off the wall,
-#    and so does rewind. If it is longer, the car has bounced again, and rewind cannot know: it puts
-#    the car on the wall.
+# 5. Rewind. A car at a distance d from a wall, at u towards it, under an acceleration g towards it,
+#    is there after t1 at s, with s^2 = u^2 + 2 g d, and leaves it at CR s. Right to round-off is
+#    rewind where the frame holds this one bounce and its move ends beyond the wall. That is so in
+#    the time r after t1 that is shorter than 2 CR s/g, when a car that is pulled to the wall
+#    (g > 0) is back for a second bounce, and shorter than 2 s/|g|, when a move that is pulled off
+#    the wall (g < 0) is back on the track. Then the car is CR s r - g r^2/2 off the wall. Later
+#    rewind puts the car on the wall (g > 0), or has found no collision at all: g < 0,
+#    u^2 > 2 |g| d and u dt - |g| dt^2/2 < d.
 
-@given(side=sides, d_m=st.floats(0.01, 1), u_mps=st.floats(0.1, 20), g_mps2=st.floats(0.1, 50),
-       CR=st.floats(0.05, 1), rest=st.floats(0.01, 1.99))
-@settings(max_examples=300)
-def test_rewind_is_right_for_one_bounce_a_frame_and_wrong_for_two(
-        side: int, d_m: float, u_mps: float, g_mps2: float, CR: float, rest: float) -> None:
-    assume(abs(rest - 1) > 0.01)
-    s_mps = math.sqrt(u_mps**2 + 2 * g_mps2 * d_m)
-    t1_s, hop_s = 2 * d_m / (u_mps + s_mps), 2 * CR * s_mps / g_mps2
-    rest_s = rest * hop_s if rest < 1 else (1 + CR * (rest - 1)) * hop_s
+@given(side=sides, d_m=st.floats(0.01, 1), s_mps=st.floats(0.1, 20), CR=st.floats(0.05, 1),
+       g_mps2=st.floats(-50, -0.1) | st.just(0.0) | st.floats(0.1, 50), part=st.floats(0.01, 1.99))
+@settings(max_examples=500)
+def test_rewind_is_right_for_one_bounce_whose_move_ends_beyond_the_wall_and_wrong_for_others(
+        side: int, d_m: float, s_mps: float, CR: float, g_mps2: float, part: float) -> None:
+    u_squared = s_mps**2 - 2 * g_mps2 * d_m
+    assume(abs(part - 1) > 0.01 and u_squared > 0)
+    t1_s = 2 * d_m / (math.sqrt(u_squared) + s_mps)
+    limit_s = 1.0 if g_mps2 == 0 else 2 * s_mps / abs(g_mps2) * (CR if g_mps2 > 0 else 1)
+    rest_s = part * limit_s if part < 1 or g_mps2 <= 0 else (1 + CR * (part - 1)) * limit_s
     scene = Scene(motion="exact", correction="rewind", CR=CR, a_mps2=side * g_mps2, x_m=0,
                   left_edge_m=-900, right_edge_m=900)
-    assume((CR * s_mps) ** 2 / (2 * g_mps2) < 1700)
-    x_m, v_mps, mark_m = step(scene, side * (900 - d_m), side * u_mps, t1_s + rest_s)
-    off_m = 900 - side * x_m
-    assert mark_m is not None
-    if rest < 1:
-        assert off_m == pytest.approx(CR * s_mps * rest_s - g_mps2 * rest_s**2 / 2, abs=1e-8)
+    off_m = CR * s_mps * rest_s - g_mps2 * rest_s**2 / 2
+    assume(off_m < 1000)
+    x_m, v_mps, mark_m = step(
+        scene, side * (900 - d_m), side * math.sqrt(u_squared), t1_s + rest_s)
+    if part < 1 or g_mps2 == 0:
+        assert mark_m is not None
+        assert 900 - side * x_m == pytest.approx(off_m, abs=1e-8)
         assert -side * v_mps == pytest.approx(CR * s_mps - g_mps2 * rest_s, abs=1e-8)
-    else:
-        second_s = rest_s - hop_s
+    elif g_mps2 > 0:
+        second_s = rest_s - limit_s
         true_m = CR**2 * s_mps * second_s - g_mps2 * second_s**2 / 2
-        assert true_m > 0
-        assert off_m == 0
+        assert side * x_m == 900 > 900 - true_m
+    else:
+        assert mark_m is None
+        assert side * v_mps == pytest.approx(s_mps + g_mps2 * rest_s)  # never turned round
 
 
 def test_rewind_at_a_step_longer_than_the_track_throws_the_car_through_the_walls() -> None:
@@ -187,21 +189,15 @@ def test_rewind_at_a_step_longer_than_the_track_throws_the_car_through_the_walls
        CR=st.floats(0, 1), dt_s=frame_lengths_s)
 @example(x_m=3.0, v_mps=-1.0, a_mps2=0.0, CR=0.5, dt_s=0.1)  # s + v = 0
 @example(x_m=3.0, v_mps=0.0, a_mps2=0.0, CR=0.5, dt_s=0.1)
-def test_rewind_puts_a_car_that_starts_beyond_a_wall_on_it_or_inside(
+def test_rewind_puts_a_car_that_it_threw_beyond_a_wall_on_it_or_off_it(
         x_m: float, v_mps: float, a_mps2: float, CR: float, dt_s: float) -> None:
-    scene = Scene(motion="exact", correction="rewind", CR=CR, a_mps2=a_mps2, x_m=x_m)
+    scene = Scene(motion="exact", correction="rewind", CR=CR, a_mps2=a_mps2)
     after_m, after_mps, mark_m = step(scene, x_m, v_mps, dt_s)
     assert math.isfinite(after_m)
     assert math.isfinite(after_mps)
     if mark_m is not None:
         wall_m = scene.to_track(mark_m)
         assert (after_m - wall_m) * (mark_m - wall_m) <= 0
-
-
-def test_a_car_that_has_been_beyond_for_ever_is_put_on_the_wall() -> None:
-    scene = Scene(motion="exact", correction="rewind", CR=0.5, x_m=3)
-    assert step(scene, 3.0, -1.0, 0.1) == (2.2, -0.5, 2.9)
-    assert step(scene, 3.0, 0.0, 0.1)[0] == 2.2
 
 
 # 6. The order of the Euler methods. In free flight for T their velocity is right, and their
@@ -223,64 +219,3 @@ def test_half_the_step_is_half_the_error(
     whole_m, half_m = error_m(2.0 / steps, steps), error_m(1.0 / steps, 2 * steps)
     assert whole_m == pytest.approx(sign * a_mps2 * 2.0 * (2.0 / steps) / 2, rel=1e-6, abs=1e-10)
     assert half_m == pytest.approx(whole_m / 2, rel=1e-6, abs=1e-10)
-
-
-# 7. Replay, in the scenes of 1 to 5 in which the others fail: it stays on the track, keeps its
-#    energy at CR = 1 and only ever loses some below.
-
-@given(x_m=st.floats(-1, 1), v_mps=speeds, a_mps2=pulls, CR=st.floats(0, 1) | st.just(1.0),
-       dt_s=frame_lengths_s)
-@settings(max_examples=300)
-def test_replay_keeps_the_track_and_the_energy_where_the_others_fail(
-        x_m: float, v_mps: float, a_mps2: float, CR: float, dt_s: float) -> None:
-    scene = Scene(motion="exact", correction="replay", left_edge_m=-1, right_edge_m=1, x_m=x_m,
-                  v_mps=v_mps, a_mps2=a_mps2, CR=CR)
-    energies = [v_mps**2 / 2 - a_mps2 * x_m]
-    for _ in range(20):
-        x_m, v_mps, _ = step(scene, x_m, v_mps, dt_s)
-        assert -1 <= x_m <= 1
-        energies.append(v_mps**2 / 2 - a_mps2 * x_m)
-    slack = 1e-11 * (energies[0] + 2 * abs(a_mps2) + 1)
-    assert all(after <= before + slack for before, after in pairwise(energies))
-    if CR == 1:
-        assert energies[-1] == pytest.approx(energies[0], abs=slack)
-
-
-@pytest.mark.parametrize("fps", [1, 2, 5, 10, 30, 60, 120, 240, 1000])
-def test_replay_is_right_at_every_frame_rate_of_the_map(fps: int) -> None:
-    for scene in (Scene(x_m=2, a_mps2=-2, CR=1), Scene(x_m=1.65, v_mps=40, CR=1),
-                  Scene(x_m=2, a_mps2=-1.5, CR=0.6), Scene(x_m=1, v_mps=7, a_mps2=3, CR=0.9)):
-        truth, x_m, v_mps = exactly(scene), scene.x_m, scene.v_mps
-        for frame in range(1, 20 * fps + 1):
-            x_m, v_mps, _ = step(truth, x_m, v_mps, 1 / fps)
-            if frame % fps == 0:
-                assert x_m == pytest.approx(
-                    step(truth, scene.x_m, scene.v_mps, frame / fps)[0], abs=1e-9)
-
-
-# 8. The Zeno time. From rest at height H above the wall (along a) the car falls for
-#    T = sqrt(2 H/a), and hops 2 CR T, 2 CR^2 T ...: it rests at T (1 + CR)/(1 - CR), after
-#    infinitely many bounces.
-
-@given(height_m=st.floats(0.01, 100), a_mps2=st.floats(0.1, 100), CR=st.floats(0.01, 0.99),
-       side=sides)
-def test_the_car_is_at_rest_from_the_Zeno_time_on(
-        height_m: float, a_mps2: float, CR: float, side: int) -> None:
-    scene = Scene(motion="exact", correction="replay", CR=CR, a_mps2=side * a_mps2,
-                  left_edge_m=0 if side < 0 else -200, right_edge_m=200 if side < 0 else 0,
-                  x_m=-side * height_m)
-    zeno_s = math.sqrt(2 * height_m / a_mps2) * (1 + CR) / (1 - CR)
-    early, late = (step(scene, -side * height_m, 0.0, zeno_s * factor) for factor in (0.999, 1.001))
-    assert early[:2] != (0.0, 0.0)
-    assert late[:2] == (0.0, 0.0)
-
-
-# 9. A stall, under observed dt. A frame that took 2 s would be followed by a step of 2 s; at
-#    40 m/s that is 80 m, which the rebound cannot settle on a track of 1.95 m. So the car holds
-#    still for that frame (test_run.py), and the longest step there is is max(0.15 s, 1.5/FPS).
-
-def test_what_the_leap_after_a_stall_would_do() -> None:
-    scene = Scene(x_m=1.65, v_mps=40, CR=1)
-    assert not -70 < step(scene, 1.65, 40.0, 2.0)[0] < 70
-    truth = replace(scene, motion="exact", correction="replay")
-    assert 0.25 <= step(truth, 1.65, 40.0, 2.0)[0] <= 2.2
