@@ -10,8 +10,6 @@ import pytest
 import airtrack
 import examples
 
-Capture = pytest.CaptureFixture[str]
-
 
 class Clock:
     """A clock that goes on only while somebody sleeps, or when a test says so."""
@@ -20,9 +18,11 @@ class Clock:
         self.now_s = 1000.0
         self.frames_s: list[float] = []  # when each frame was drawn
         self.when_drawn: Callable[[int], float] = lambda frame: 0.0  # how long that takes
-        monkeypatch.setattr(airtrack, "clock_s", lambda: self.now_s)
-        monkeypatch.setattr(examples, "time", SimpleNamespace(
-            perf_counter=lambda: self.now_s, monotonic=lambda: self.now_s, sleep=self.sleep))
+        self.due: list[tuple[float, str]] = []  # when keys are pressed, and which
+        stand_in = SimpleNamespace(perf_counter=lambda: self.now_s, sleep=self.sleep)
+        monkeypatch.setattr(airtrack, "time", stand_in)
+        monkeypatch.setattr(examples, "time", stand_in)
+        monkeypatch.setattr(examples.Terminal, "read", lambda _: self.pressed())
         render_track = airtrack.render_track
 
         def render(*args: object) -> str:
@@ -36,23 +36,19 @@ class Clock:
         assert seconds >= 0
         self.now_s += seconds + 60e-6  # a little too long, as real ones are
 
-    def lengths_s(self) -> list[float]:
-        return [b - a for a, b in pairwise(self.frames_s)]
+    def press(self, **keys: str) -> None:
+        """t4_05="p" presses p 4.05 s from now. The frames are counted anew."""
+        self.frames_s = []
+        self.due = [(self.now_s + float(at[1:].replace("_", ".")), key) for at, key in keys.items()]
 
-
-class Keyboard:
-    """Keys that are pressed at set moments of the clock."""
-
-    def __init__(self, clock: Clock, monkeypatch: pytest.MonkeyPatch, **presses: str) -> None:
-        self.clock, self.zero_s = clock, clock.now_s
-        self.due = [(float(at[1:].replace("_", ".")), key) for at, key in presses.items()]
-        monkeypatch.setattr(examples.Terminal, "read", self.read)
-
-    def read(self, *_: object) -> str:
+    def pressed(self) -> str:
         keys = ""
-        while self.due and self.clock.now_s - self.zero_s >= self.due[0][0]:
+        while self.due and self.now_s >= self.due[0][0]:
             keys += self.due.pop(0)[1]
         return keys
+
+    def lengths_s(self) -> list[float]:
+        return [b - a for a, b in pairwise(self.frames_s)]
 
 
 def positions_m(out: str) -> list[float]:

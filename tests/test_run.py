@@ -2,68 +2,107 @@
 
 import io
 import re
-import signal
-from itertools import pairwise
+from collections.abc import Callable
+from itertools import islice, pairwise
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 import examples
-from airtrack import Scene, main, step
-from clock import Capture, Clock, Keyboard, positions_m
-from examples import EXAMPLES
+from airtrack import Scene, main, planned, step, truth_of
+from clock import Clock, positions_m
+
+Capture = pytest.CaptureFixture[str]
+Play = Callable[..., str]
 
 
-def ending(capsys: Capture) -> str:
-    return capsys.readouterr().out.splitlines()[-1]
+@pytest.fixture
+def play(clock: Clock, capsys: Capture) -> Play:
+    """Run a command line, pressing keys at set moments: what was printed."""
+    def played(words: str, **keys: str) -> str:
+        clock.press(**keys)
+        assert main(words.split()) == 0
+        return capsys.readouterr().out
+    return played
+
+
+def ending(out: str) -> str:
+    return out.splitlines()[-1]
 
 
 # Pacing.
 
 @pytest.mark.parametrize("fps", [300, 240, 10])
-def test_work_and_oversleeping_do_not_slow_the_film(fps: int, clock: Clock) -> None:
+def test_work_and_oversleeping_do_not_slow_the_film(fps: int, clock: Clock, play: Play) -> None:
     clock.when_drawn = lambda frame: 0.3 / fps
-    assert main(["99", f"fps_target={fps}", "--frames", "1001"]) == 0
+    play(f"99 fps_target={fps} --frames 1001")
     took_s = clock.frames_s[-1] - clock.frames_s[0]
     assert 1000 / took_s == pytest.approx(fps, rel=0.002)
 
 
-def test_a_missed_deadline_is_not_made_up_by_a_burst(clock: Clock) -> None:
+def test_a_missed_deadline_is_not_made_up_by_a_burst(clock: Clock, play: Play) -> None:
     clock.when_drawn = lambda frame: 0.5 if frame == 10 else 0.001
-    assert main(["99", "fps_target=100", "--frames", "40"]) == 0
+    play("99 fps_target=100 --frames 40")
     lengths_s = clock.lengths_s()
     assert lengths_s[9] == pytest.approx(0.5, rel=0.01)
     assert lengths_s[10:] == pytest.approx([0.01] * 29, rel=0.02)
 
 
-def test_the_pause_before_the_first_frame(clock: Clock) -> None:
-    for number, pause_s in (("0", 0), ("1", 5), ("3", 4), ("5", 3)):
-        began_s, clock.frames_s = clock.now_s, []
-        assert main([number, "--frames", "1"]) == 0
+def test_the_pause_before_the_first_frame(clock: Clock, play: Play) -> None:
+    for number, pause_s in ((0, 3), (1, 5), (3, 4), (5, 3), (99, 3)):
+        began_s = clock.now_s
+        assert f"The film begins in {pause_s} s" in play(f"{number} --frames 1")
         assert clock.frames_s[0] - began_s == pytest.approx(pause_s, abs=0.01)
 
 
 def test_each_line_goes_out_at_once_and_does_not_wait_in_a_buffer(
         clock: Clock, monkeypatch: pytest.MonkeyPatch) -> None:
-    class Output(io.StringIO):
-        waiting = ""
-
-        def write(self, text: str) -> int:
-            self.waiting += text
-            return super().write(text)
-
-        def flush(self) -> None:
-            self.waiting = ""
-
-    output, sleep = Output(), clock.sleep
-
-    def sleep_when_all_is_out(seconds: float) -> None:
-        assert output.waiting == ""
-        sleep(seconds)
-
-    monkeypatch.setattr("examples.time.sleep", sleep_when_all_is_out)
-    monkeypatch.setattr("sys.stdout", output)
+    raw, walls = io.BytesIO(), []
+    clock.when_drawn = lambda frame: walls.append(raw.getvalue().count(b"|")) or 0.0  # type: ignore
+    monkeypatch.setattr("sys.stdout", io.TextIOWrapper(io.BufferedRandom(raw)))  # type: ignore
     assert main(["10", "--frames", "5"]) == 0
-    assert output.getvalue().count("*") >= 5
+    assert walls == [0, 2, 4, 6, 8]
+
+
+# Irregular frames.
+
+def test_frame_k_should_last_1_plus_jitter_times_a_fraction_of_0_618_k() -> None:
+    scene = Scene(fps_target=10, jitter=0.25)
+    lengths_s = [length_s for length_s, _ in islice(planned(scene), 2000)]
+    for k in (1, 2, 3, 1999):
+        fraction = 618 * k % 1000 / 1000
+        assert lengths_s[k - 1] == pytest.approx((1 + 0.25 * (2 * fraction - 1)) / 10)
+    assert sum(lengths_s) / 2000 == pytest.approx(0.1, rel=1e-3)
+    assert (min(lengths_s), max(lengths_s)) == pytest.approx((0.075, 0.125), rel=0.001)
+    even_s = {length_s for length_s, _ in islice(planned(Scene(fps_target=7)), 100)}
+    assert even_s == {1 / 7}
+
+
+@pytest.mark.parametrize("jitter", [0, 0.25, 0.9])
+def test_the_film_in_time_and_the_fast_one_have_the_same_frames(
+        jitter: float, clock: Clock, play: Play) -> None:
+    words = f"99 d v_mps=1 right_edge_m=100 fps_target=10 jitter={jitter} --frames 30"
+    for observed in (True, False):
+        paced = positions_m(play(f"{words} use_observed_dt={observed}"))
+        fast = positions_m(play(f"{words} use_observed_dt={observed} --fast"))
+        assert paced == pytest.approx(fast, abs=0.0101)
+        nominal_m = [1.1 + 0.1 * k for k in range(1, 31)]
+        is_even = fast == pytest.approx(nominal_m, abs=0.0051)
+        assert is_even is (not observed or jitter == 0)
+
+
+@given(jitter=st.floats(0, 0.9), v_mps=st.floats(-20, 20), a_mps2=st.floats(-20, 20),
+       CR=st.floats(0, 0.95) | st.just(1.0), fps=st.floats(1, 100))
+def test_the_exact_solution_does_not_depend_on_how_the_time_is_cut_into_frames(
+        jitter: float, v_mps: float, a_mps2: float, CR: float, fps: float) -> None:
+    scene = truth_of(Scene(v_mps=v_mps, a_mps2=a_mps2, CR=CR, fps_target=fps, jitter=jitter))
+    x_m, now_mps, t_s = scene.x_m, scene.v_mps, 0.0
+    for length_s, _ in islice(planned(scene), 100):
+        x_m, now_mps, _ = step(scene, x_m, now_mps, length_s)
+        t_s += length_s
+    # A graze that counts as a miss costs up to 9e-6 m.
+    assert x_m == pytest.approx(step(scene, scene.x_m, scene.v_mps, t_s)[0], abs=2e-5)
 
 
 # Stalls and the observed dt.
@@ -73,79 +112,70 @@ def test_each_line_goes_out_at_once_and_does_not_wait_in_a_buffer(
 @pytest.mark.parametrize("observed", [True, False])
 def test_after_a_stall_longer_than_150_ms_and_one_and_a_half_frames_the_car_holds_still(
         fps: float, late_s: float, is_stall: bool, observed: bool, clock: Clock,
-        capsys: Capture) -> None:
+        play: Play) -> None:
     clock.when_drawn = lambda frame: late_s * (frame == 5)
-    main(["99", "d", "v_mps=0.4", "right_edge_m=9", f"fps_target={fps}", "--frames", "9",
-          f"use_observed_dt={observed}"])
-    lines = capsys.readouterr().out.splitlines()
-    xs = positions_m("\n".join(lines))
-    moved_m = [b - a for a, b in pairwise(xs)]
+    out = play(f"99 d v_mps=0.4 right_edge_m=9 fps_target={fps} --frames 9 "
+               f"use_observed_dt={observed}")
+    moved_m = [b - a for a, b in pairwise(positions_m(out))]
     assert (moved_m[4] == 0) is is_stall
     assert 0 < moved_m[5] <= 0.4 / fps + 0.011  # and no longer than for that frame
     if not observed:
-        assert f"t = {(9 - is_stall) / fps:.2f} s" in lines[-1]
+        assert f"t = {(9 - is_stall) / fps:.2f} s" in ending(out)
 
 
-def test_while_the_car_holds_still_no_collision_is_marked_again(
-        clock: Clock, capsys: Capture) -> None:
+def test_while_the_car_holds_still_no_collision_is_marked_again(clock: Clock, play: Play) -> None:
     clock.when_drawn = lambda frame: 1.0 * (frame == 14)  # example 10's first bounce
-    main(["10", "--frames", "15"])
-    *_, fourteen, fifteen, _ = capsys.readouterr().out.splitlines()
+    *_, fourteen, fifteen, _ = play("10 --frames 15").splitlines()
     assert (fourteen.index("0"), fourteen.index("*")) == (2, 25)
     assert fifteen.index("*") == 25
     assert "0" not in fifteen
 
 
-def test_observed_dt_is_the_length_of_the_frame_before(clock: Clock, capsys: Capture) -> None:
+def test_observed_dt_is_the_length_of_the_frame_before(clock: Clock, play: Play) -> None:
     clock.when_drawn = lambda frame: 0.12 if frame % 3 == 0 else 0.0
     for observed in (True, False):
-        clock.frames_s = []
-        main(["99", "d", "right_edge_m=100", "v_mps=10", "fps_target=10", "--frames", "12",
-              f"use_observed_dt={observed}"])
-        xs, lengths_s = positions_m(capsys.readouterr().out), clock.lengths_s()
+        out = play("99 d right_edge_m=100 v_mps=10 fps_target=10 --frames 12 "
+                   f"use_observed_dt={observed}")
+        lengths_s = clock.lengths_s()
         assert max(lengths_s) > 1.15 * min(lengths_s)
-        for (a_m, b_m), length_s in zip(pairwise(xs), lengths_s, strict=True):
+        for (a_m, b_m), length_s in zip(pairwise(positions_m(out)), lengths_s, strict=True):
             assert b_m - a_m == pytest.approx(10 * (length_s if observed else 0.1), abs=0.0101)
 
 
-def test_examples_9_11_and_12_are_irregular_and_no_others() -> None:
-    irregular = {number for number, example in EXAMPLES.items()
-                 if Scene(**example.settings).use_observed_dt}
-    assert irregular == {9, 11, 12}
-
-
-def test_the_details_show_the_observed_rate(clock: Clock, capsys: Capture) -> None:
+def test_the_details_show_the_observed_rate_and_the_target_under_fast(
+        clock: Clock, play: Play) -> None:
     clock.when_drawn = lambda frame: 0.05 if frame == 3 else 0.0
-    main(["99", "d", "fps_target=100", "--frames", "6"])
-    rates = re.findall(r"FPS = +([0-9]+)", capsys.readouterr().out)
-    assert rates[0] == "100"
-    assert rates[3] == "20"
-
-
-def test_fast_runs_at_the_nominal_dt_whatever_use_observed_dt_says(capsys: Capture) -> None:
-    main(["9", "d", "--fast", "--frames", "50"])
-    scene = Scene(**EXAMPLES[9].settings)
-    x_m, v_mps = scene.x_m, scene.v_mps
-    for shown_m in positions_m(capsys.readouterr().out):
-        x_m, v_mps, _ = step(scene, x_m, v_mps, 0.1)
-        assert shown_m == round(x_m, 2)
+    words = "99 d fps_target=100 use_observed_dt=True --frames 6"
+    rates = re.findall(r"FPS = +([0-9]+)", play(words))
+    assert (rates[0], rates[3]) == ("100", "20")
+    assert set(re.findall(r"FPS = +([0-9]+)", play(f"{words} jitter=0.5 --fast"))) == {"100"}
 
 
 # At rest.
 
-def test_at_rest_is_when_the_last_ten_positions_average_to_a_wall_within_a_millimetre(
-        capsys: Capture) -> None:
-    for start_m, is_rest in ((0.2509, True), (0.2511, False), (2.1991, True)):
-        main(["99", f"x_m={start_m}", "--fast", "--frames", "20"])
-        end = ending(capsys)
-        assert end.startswith("Stopped after 10 frames, t = 0.33 s: the car is at rest against a "
-                              "wall." if is_rest else "Stopped after 20 frames")
-    main(["99", "left_edge_m=0", "x_m=0", "--fast", "--frames", "20"])  # at a wall, but ten frames
-    assert ending(capsys).startswith("Stopped after 10 frames")
-    main(["99", "x_m=0.25", "--fast", "--frames", "1"])
-    assert ending(capsys) == "Stopped after 1 frame, t = 0.03 s: that is the frame limit."
-    main(["99", "x_m=0.25", "auto_off=False", "--fast", "--frames", "20"])
-    assert ending(capsys) == "Stopped after 20 frames, t = 0.67 s: that is the frame limit."
+@pytest.mark.parametrize(("words", "frames"), [
+    ("x_m=0.2509", 10), ("x_m=0.2511", 0), ("x_m=2.1991", 10), ("x_m=2.1989", 0),
+    ("left_edge_m=0 x_m=0", 10), ("x_m=0.25 auto_off=False", 0),
+    # of the wall that it is pulled to, of either without a pull
+    ("x_m=0.25 a_mps2=-1", 10), ("x_m=2.2 a_mps2=1", 10), ("x_m=2.2 a_mps2=-1e-9", 0),
+    ("x_m=0.25 a_mps2=1e-9", 0),
+    # ten frames, or a third of a second where that is more
+    ("x_m=0.25 fps_target=10", 10), ("x_m=0.25 fps_target=240", 80),
+    ("x_m=0.25 fps_target=999", 333)])
+def test_at_rest_is_a_third_of_a_second_within_a_millimetre_of_a_wall(
+        words: str, frames: int, play: Play) -> None:
+    out = play(f"99 {words} --fast --frames 400")
+    assert ending(out).startswith(f"Stopped after {frames or 400} frames, ")
+    why = "the car is at rest against a wall." if frames else "that is the frame limit."
+    assert ending(out).endswith(f" s: {why}")
+
+
+@pytest.mark.parametrize("fps", [30, 240, 1000])
+@pytest.mark.parametrize("words", [
+    "7 x_m=2.2", "99 x_m=1.1 v_mps=4.65 a_mps2=-9.81 CR=0.9", "7 x_m=2.2 a_mps2=-0.05"])
+def test_a_car_that_turns_at_a_wall_or_was_just_released_there_is_not_at_rest(
+        words: str, fps: int, play: Play) -> None:
+    assert ending(play(f"{words} fps_target={fps} --fast --frames {fps}")).endswith("frame limit.")
 
 
 # Keys.
@@ -154,43 +184,38 @@ def test_at_rest_is_when_the_last_ten_positions_average_to_a_wall_within_a_milli
     ("x", "x was pressed"), ("X", "x was pressed"), ("\x1b", "Esc was pressed"),
     ("\x03", "Ctrl-C was pressed"), (examples.WINDOW_CLOSED, "the window was closed")])
 def test_keys_that_quit(key: str, why: str, clock: Clock, monkeypatch: pytest.MonkeyPatch,
-                        capsys: Capture) -> None:
+                        play: Play) -> None:
     monkeypatch.setattr(examples.Window, "read", lambda _: [key] if clock.now_s > 1004 else [])
-    assert main(["10"]) == 0
+    out = play("10")
     frames = len(clock.frames_s)
     assert frames in (10, 11)
-    assert ending(capsys) == f"Stopped after {frames} frames, t = {frames / 10:.2f} s: {why}."
+    assert ending(out) == f"Stopped after {frames} frames, t = {frames / 10:.2f} s: {why}."
 
 
-def test_x_is_answered_within_a_long_frame(clock: Clock, monkeypatch: pytest.MonkeyPatch) -> None:
-    Keyboard(clock, monkeypatch, t7="x")
+def test_x_is_answered_within_a_long_frame(clock: Clock, play: Play) -> None:
     began_s = clock.now_s
-    main(["99", "fps_target=0.1"])
+    play("99 fps_target=0.1", t7="x")
     assert clock.now_s - began_s == pytest.approx(7, abs=0.1)
 
 
 @pytest.mark.parametrize("key", ["p", "P", "\x13"])
 def test_p_pauses_tells_the_moment_and_resumes_without_a_leap(
-        key: str, clock: Clock, monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
-    Keyboard(clock, monkeypatch, t4_05=key, t24=key, t25_05="x")
-    main(["99", "d", "v_mps=0.4", "fps_target=10", "use_observed_dt=True"])
-    out = capsys.readouterr().out
+        key: str, clock: Clock, play: Play) -> None:
+    out = play("99 d v_mps=0.4 fps_target=10 use_observed_dt=True", t4_05=key, t24=key, t25_05="x")
     assert max(clock.lengths_s()) == pytest.approx(20, abs=0.1)
-    paused = re.findall(r"^paused after frame (\d+), t = (.*) s: p goes on, s steps, x quits$", out,
-                        re.MULTILINE)
-    assert [int(frame) for frame, _ in paused] == [11]
-    assert float(paused[0][1]) == pytest.approx(1.1, abs=0.02)
+    (frame, t_s), = re.findall(
+        r"^paused after frame (\d+), t = (.*) s: p goes on, s steps, x quits$", out, re.MULTILINE)
+    assert frame == "11"
+    assert float(t_s) == pytest.approx(1.1, abs=0.02)
     xs = positions_m(out)
     assert len(xs) in (21, 22)
     for a_m, b_m in pairwise(xs):  # nor does it stand still: the frame is as long as any other
         assert b_m - a_m == pytest.approx(0.04, abs=0.011)
 
 
-def test_s_goes_one_frame_further_and_pauses(
-        clock: Clock, monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
-    Keyboard(clock, monkeypatch, t4_05="s", t30="s", t40="ss", t50="p", t50_5="x")
-    main(["99", "d", "v_mps=0.4", "fps_target=10", "use_observed_dt=True"])
-    out = capsys.readouterr().out
+def test_s_goes_one_frame_further_and_pauses(play: Play) -> None:
+    out = play("99 d v_mps=0.4 fps_target=10 use_observed_dt=True",
+               t4_05="s", t30="s", t40="ss", t50="p", t50_5="x")
     frames = [int(frame) for frame in re.findall("paused after frame ([0-9]+)", out)]
     assert [frame - frames[0] for frame in frames] == [0, 1, 3]
     xs = positions_m(out)
@@ -199,128 +224,94 @@ def test_s_goes_one_frame_further_and_pauses(
         assert b_m - a_m == pytest.approx(0.04, abs=0.011)
 
 
-def test_keys_pressed_in_the_header_s_pause_count(
-        clock: Clock, monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
-    Keyboard(clock, monkeypatch, t1="x")
-    main(["10"])
-    assert ending(capsys) == "Stopped after 0 frames, t = 0.00 s: x was pressed."
-    Keyboard(clock, monkeypatch, t1="p", t60="p")
+def test_keys_pressed_in_the_header_s_pause_count(clock: Clock, play: Play) -> None:
+    assert ending(play("10", t1="x")) == "Stopped after 0 frames, t = 0.00 s: x was pressed."
     began_s = clock.now_s
-    main(["10", "--frames", "1"])
+    play("10 --frames 1", t1="p", t60="p")
     assert clock.frames_s[0] - began_s == pytest.approx(60, abs=0.1)
-    clock.frames_s = []
-    Keyboard(clock, monkeypatch, t1="s", t60="x")
     began_s = clock.now_s
-    main(["10"])
+    out = play("10", t1="s", t60="x")
     assert clock.frames_s == pytest.approx([began_s + 1], abs=0.1)
-    assert "paused after frame 1, t = 0.10 s" in capsys.readouterr().out
+    assert "paused after frame 1, t = 0.10 s" in out
 
 
 def test_ctrl_c_cuts_the_header_s_pause_short_and_a_diamond_says_so(
-        clock: Clock, monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
-    diamond = "   *\n  * *\n *   *\n  * *\n   *\n"
-    Keyboard(clock, monkeypatch, t1="\x03")
-    began_s = clock.now_s
-    main(["10", "--frames", "1"])
+        clock: Clock, play: Play) -> None:
+    diamond, began_s = "   *\n  * *\n *   *\n  * *\n   *\n", clock.now_s
+    assert diamond in play("10 --frames 1", t1="\x03")
     assert clock.frames_s[0] - began_s == pytest.approx(1, abs=0.1)
-    assert diamond in capsys.readouterr().out
-    Keyboard(clock, monkeypatch, t1="\x03x")  # it does not swallow what comes with it
-    main(["10"])
-    out = capsys.readouterr().out
+    out = play("10", t1="\x03x")  # it does not swallow what comes with it
     assert diamond in out
     assert out.endswith("Stopped after 0 frames, t = 0.00 s: x was pressed.\n")
+    assert diamond not in play("10 --frames 1")
 
 
-def test_on_a_terminal_the_pause_s_notice_stands_only_until_the_run_goes_on(
-        clock: Clock, monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
+def test_on_a_terminal_the_pause_s_notice_fits_it_and_stands_only_until_the_run_goes_on(
+        monkeypatch: pytest.MonkeyPatch, play: Play) -> None:
     monkeypatch.setattr("sys.stdout.isatty", lambda: True)
-    Keyboard(clock, monkeypatch, t4_05="p", t6="s", t7="x")
-    main(["99", "fps_target=10"])
-    notice, frames = re.compile(r"paused after frame \d+, t = [0-9.]+ s: [^\r\n]*"), 0
-    for line in capsys.readouterr().out.split("\n"):
-        found = notice.search(line)
-        if found:
-            rest = line[found.end():]
-            assert rest.startswith("\r" + " " * len(found[0]) + "\r")
-            frames += 1
-    assert frames == 2
+    for columns in (40, 63, 64, 200):
+        monkeypatch.setenv("COLUMNS", str(columns))
+        out = play("99 fps_target=10", t4_05="p", t6="s", t7="x")
+        notices = re.findall("(paused after frame [^\r\n]*)\r( *)\r", out)
+        assert len(notices) == 2
+        for notice, blanks in notices:
+            assert len(notice) == len(blanks) == min(62, columns - 1)
 
 
-def test_of_several_signals_the_first_is_the_reason_and_Ctrl_C_in_the_header_is_none(
-        clock: Clock, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("os._exit", lambda status: pytest.fail("ended at once"))
-    keys = examples.Keys()
-    keys.is_reading = True
-    keys.note(signal.SIGINT, None)
-    keys.look()
-    assert (keys.is_reading, keys.why_quit) == (False, "")
-    clock.now_s += 2
-    for number in (signal.SIGTERM, signal.SIGINT):
-        keys.note(number, None)
-    keys.look()
-    assert (keys.why_quit, keys.status) == ("SIGTERM", 128 + signal.SIGTERM)
-
-
-def test_the_help_line_names_the_places_in_which_keys_work(
-        clock: Clock, monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
-    for is_raw, why_shut, places in (
-            (True, "no", "Keys, in this terminal: p or"),
-            (False, "", "Keys, in the little window: p"),
-            (True, "", "Keys, in the little window and in this terminal: p"),
-            (False, "no", "Keys: Ctrl-C quits.")):
-        keys = examples.Keys()
-        keys.terminal.is_raw, keys.window.why_shut = is_raw, why_shut
-        assert keys.help().startswith(places)
-        assert ("s steps one frame further" in keys.help()) is (places[4] == ",")
+@pytest.mark.parametrize(("is_raw", "why_shut", "where"), [
+    (True, "no", "in this terminal"), (False, "", "in the little window"),
+    (True, "", "in the little window and in this terminal"), (False, "no", "")])
+def test_the_keys_are_told_and_the_next_example_is_named_where_there_are_any(
+        is_raw: bool, why_shut: str, where: str, monkeypatch: pytest.MonkeyPatch,
+        play: Play) -> None:
+    monkeypatch.setattr(examples.Terminal, "take", lambda terminal: setattr(
+        terminal, "is_raw", is_raw))
+    monkeypatch.setattr(examples.Window, "open", lambda window: setattr(
+        window, "why_shut", why_shut))
+    for name in ("show", "read", "close"):
+        monkeypatch.setattr(examples.Window, name, lambda *_: [])
+    out = " ".join(play("3 --frames 2").split())
+    assert ("No window for the keys: no." in out) is bool(why_shut)
+    assert (f"Keys, {where}: p or Ctrl-S pauses, s steps one frame" in out) is bool(where)
+    assert ("p holds this text" in out) is bool(where)
+    assert out.endswith("Next: python airtrack.py 4" if where else "that is the frame limit.")
+    for last in (16, 99):
+        assert "Next" not in play(f"{last} --frames 2")
+    assert "Next" not in play("3 --frames 2 --fast")
 
 
 # The picture and the terminal.
 
-@pytest.mark.parametrize(("columns", "width_px"), [(80, 48), (200, 135), (168, 136), (20, 10)])
+@pytest.mark.parametrize(("columns", "width_px"), [(80, 45), (200, 135), (170, 135), (20, 10)])
 def test_a_narrow_terminal_shrinks_track_and_zoom_together(
-        columns: int, width_px: int, monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
+        columns: int, width_px: int, monkeypatch: pytest.MonkeyPatch, play: Play) -> None:
     monkeypatch.setenv("COLUMNS", str(columns))
     monkeypatch.setattr("sys.stdout.isatty", lambda: True)
-    main(["10", "d", "--fast", "--frames", "40"])
-    text = capsys.readouterr().out
-    lines = [line for line in text.splitlines() if "FPS =" in line]
-    assert {abs(line.index("x =") - width_px) <= 1 for line in lines} == {True}
-    assert max(map(len, lines)) <= max(columns, 43)
-    assert ("physics is untouched" in " ".join(text.split())) is (width_px < 135)
-    scale = lines[0].index("x =") / 135
+    out = play("10 d --fast --frames 40")
+    lines = [line for line in out.splitlines() if "FPS =" in line]
+    assert {line.index("x =") for line in lines} == {width_px}
+    assert ("physics is untouched" in " ".join(out.split())) is (width_px < 135)
     walls = [i for i, c in enumerate(lines[0]) if c == "|"]
-    assert walls == [round(0.25 * 55 * scale), round(2.2 * 55 * scale)]
+    assert walls == [round(at_m * 55 * width_px / 135) for at_m in (0.25, 2.2)]
     assert lines[13].endswith("x =   0.45, v =  2.49, FPS =  10")
 
 
-def test_the_smallest_zoom_survives_the_narrowest_terminal(
-        monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
+def test_the_smallest_zoom_survives_the_narrowest_terminal_and_a_pipe_has_no_width(
+        monkeypatch: pytest.MonkeyPatch, play: Play) -> None:
     monkeypatch.setenv("COLUMNS", "12")
+    assert play("10 d --fast --frames 1").splitlines()[-2].index("x =") == 135
     monkeypatch.setattr("sys.stdout.isatty", lambda: True)
-    assert main(["10", "d", "m_to_px=0.001", "--fast", "--frames", "1"]) == 0
-    assert capsys.readouterr().err == ""
+    play("10 d m_to_px=0.001 --fast --frames 1")
 
 
-def test_in_a_pipe_the_width_is_the_scene_s(
-        monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
-    monkeypatch.setenv("COLUMNS", "80")
-    main(["10", "d", "--fast", "--frames", "1"])
-    assert capsys.readouterr().out.splitlines()[-2].index("x =") == 135
-
-
-def test_a_wall_outside_the_picture_is_told_with_the_zoom_that_would_show_it(
-        capsys: Capture) -> None:
-    def intro(*words: str) -> str:
-        main(["99", *words, "--fast", "--frames", "1"])
-        return " ".join(capsys.readouterr().out.split())
-
+def test_a_wall_outside_the_picture_is_told_with_the_zoom_that_would_show_it(play: Play) -> None:
     for right_m, width_px in ((20, 135), (3, 40), (999.9, 10), (1000, 1000)):
-        words = f"right_edge_m={right_m}", f"width_px={width_px}"
-        told = intro(*words)
+        words = f"99 right_edge_m={right_m} width_px={width_px} --fast --frames 1"
+        told = " ".join(play(words).split())
         found = re.search(r"ends before a wall: m_to_px=([0-9.]+) would show both", told)
         assert found
-        told = intro(*words, f"m_to_px={found[1]}")
+        told = play(f"{words} m_to_px={found[1]}")
         assert "ends before" not in told
         assert "|" in told
-    assert "to the left of x = 0" in intro("left_edge_m=-1")
-    assert "wall" not in intro().replace("|", "")
+    assert "to the left of x = 0" in play("99 left_edge_m=-1 --fast --frames 1")
+    assert "A wall" not in play("99 --fast --frames 1")
