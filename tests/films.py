@@ -30,13 +30,13 @@ class Film(NamedTuple):
 
 
 def film(capsys: pytest.CaptureFixture[str], *words: str) -> Film:
-    """Run main with --fast and the words."""
+    """Run main with --fast and the words. An empty line parts the header from the film."""
     assert main([*words, "--fast"]) == 0
     out, err = capsys.readouterr()
     assert err == ""
-    *lines, ending = out.splitlines()
-    first = lines.index("") + 1 if "" in lines else 0
-    return Film(" ".join(lines[:first]), lines[first:], ending)
+    header, _, rest = out.partition("\n\n")
+    *lines, ending = rest.splitlines()
+    return Film(" ".join(header.split()), lines, ending)
 
 
 def details(line: str) -> tuple[float, float]:
