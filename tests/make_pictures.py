@@ -14,13 +14,13 @@ from PIL import Image, ImageDraw, ImageFont
 HERE = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(HERE))
 
-from airtrack import AMBER, FILM_INK, GREEN, RED  # noqa: E402
+from airtrack import INKS  # noqa: E402
 
 SIZE = ["m_to_px=36", "width_px=88"]  # what a README's width has room for
 FRAMES, ROWS, LINE_PX, LETTER_PX, EDGE_PX = 80, 18, 15, 7, 8
 PAPER, GREY = (24, 24, 27), (190, 190, 196)
-SHADES = {AMBER: (250, 204, 21), GREEN: (74, 222, 128), RED: (248, 113, 113)}  # of a dark terminal
-INK = {mark: SHADES[colour] for mark, colour in FILM_INK.items()}
+SHADES = {31: (248, 113, 113), 32: (74, 222, 128), 33: (250, 204, 21)}  # of a dark terminal
+INK = {mark: SHADES[ink] for marks, ink in INKS.items() for mark in marks if mark in "*0o"}
 FONT = ImageFont.truetype(findfont("DejaVu Sans Mono"), 12)
 
 
@@ -37,6 +37,7 @@ def screen(command: str, lines: list[str], columns: int) -> Image.Image:
     size = columns * LETTER_PX + 2 * EDGE_PX, ROWS * LINE_PX + 2 * EDGE_PX
     picture = Image.new("RGB", size, PAPER)
     draw = ImageDraw.Draw(picture)
+    draw.fontmode = "1"  # no shades between ink and paper: few colours, and each frame the same
     for row, line in enumerate([f"$ {command}", "", *lines][-ROWS:]):
         track = line.find("x =")  # marks have their colours on the track alone
         for column, letter in enumerate(line):
@@ -45,24 +46,12 @@ def screen(command: str, lines: list[str], columns: int) -> Image.Image:
     return picture
 
 
-def shades() -> Image.Image:
-    """A palette of every ink, thinned out towards the paper as at a letter's edges."""
-    colours = [round(paper + (ink - paper) * step / 5)
-               for inks in (GREY, *SHADES.values()) for step in range(6)
-               for paper, ink in zip(PAPER, inks, strict=True)]
-    palette = Image.new("P", (1, 1))
-    palette.putpalette(colours)
-    return palette
-
-
 def main() -> None:
-    palette = shades()
     for number, name in ((10, "example-10"), (16, "example-16")):
         lines, command = film(number), " ".join(["python airtrack.py", str(number), "d", *SIZE])
         columns = max(map(len, lines))
         screens = [screen(command, lines[:count], columns) for count in range(1, FRAMES + 1)]
-        frames = [picture.quantize(palette=palette, dither=Image.Dither.NONE)
-                  for picture in screens]
+        frames = [picture.quantize(8) for picture in screens]  # more than there are inks
         file = HERE / ".github" / f"{name}.gif"
         frames[0].save(file, save_all=True, append_images=frames[1:], loop=0,
                        duration=[100] * (FRAMES - 1) + [2000], optimize=False)

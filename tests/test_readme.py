@@ -3,17 +3,22 @@
 import importlib.metadata
 import io
 import re
+import shutil
+import subprocess
+import sys
 from contextlib import redirect_stdout
+from pathlib import Path
 
 import pytest
 from test_chart import printed
 
-from airtrack import parse
-from films import HERE, film
+import airtrack
+from films import HERE, environment, film
 
 Capture = pytest.CaptureFixture[str]
 README = (HERE / "README.md").read_text(encoding="utf-8")
 LISTINGS: list[str] = re.findall(r"^```\w*\n(.*?)^```$", README, re.MULTILINE | re.DOTALL)
+COMMANDS = sorted(set(re.findall(r"python\s+airtrack\.py ?([^`\[\n]*?)(?=`| *\n|$)", README)))
 
 
 def listing(part: str) -> str:
@@ -32,12 +37,20 @@ def test_the_one_pager_is_a_page_and_shows_what_the_program_shows(
             raise KeyboardInterrupt
 
     monkeypatch.setattr("time.sleep", sleep)
-    with redirect_stdout(io.StringIO()) as out, pytest.raises(KeyboardInterrupt):
+    with redirect_stdout(io.StringIO()) as out:
         exec(code, {})
     assert code.count("\n") <= 40
     assert set(slept_s) == {0.015}
+    *lines, ending = out.getvalue().splitlines()
+    assert ending == "Stopped: Ctrl-C was pressed."
     shown = film(capsys, "--frames", "600").lines
-    assert [line[:126] for line in out.getvalue().splitlines()] == [line[:126] for line in shown]
+    assert [line[:126] for line in lines] == [line[:126] for line in shown]
+
+
+def test_the_film_as_text_is_the_program_s(capsys: Capture) -> None:
+    words, = re.findall(r"`python airtrack.py (16 --fast [^`]*)`", README)
+    assert listing("*  .     |").splitlines() == [
+        line.rstrip() for line in film(capsys, *words.split()).lines]
 
 
 def test_the_lines_of_python_print_what_it_says() -> None:
@@ -51,14 +64,42 @@ def test_the_map_and_the_chart_s_errors_are_those_of_the_program() -> None:
     figures = [re.findall("[0-9.]+e[+-][0-9]+", text) for text in (
         listing("FPS  error m"), printed("chart", "10"))]
     assert len(figures[0]) == 45
-    assert figures[0] == figures[1][-45:]
+    assert figures[0] == figures[1]
 
 
-@pytest.mark.parametrize("words", sorted(set(
-    re.findall(r"python airtrack\.py ?([^`\[\n]*?)(?=`| *\n|$)", README))))
-def test_every_command_line_is_one(words: str) -> None:
-    assert callable(parse([word for word in words.split() if word != "--save"
-                           and not word.endswith(".png")]))
+def test_the_rates_and_errors_of_which_method_when_are_those_of_the_chart() -> None:
+    ten, twelve = (printed("chart", number) for number in ("10", "12"))
+    assert re.search("^Within.*\n *> 3840 FPS +> 3840 FPS +> 3840 FPS +10 FPS", ten, re.MULTILINE)
+    assert re.search("^Within.*\n *3840 FPS +\\d+ +960 FPS +\\d+ +480 FPS", twelve, re.MULTILINE)
+    assert re.search("^  10 .* 2.0e-03 ", twelve, re.MULTILINE)
+
+
+def test_the_exercise_s_fourth_motion_has_the_letters_of_exact(tmp_path: Path) -> None:
+    text = (HERE / "airtrack.py").read_text()
+    for old, new in (
+            ("# A fourth motion is written above", listing("def mean(") + "\n# A fourth motion"),
+            ('"exact": exact}', '"exact": exact, "mean": mean}'),
+            ('("forward", "backward", "exact"))', '("forward", "backward", "exact", "mean"))')):
+        assert text.count(old) == 1
+        text = text.replace(old, new)
+    (tmp_path / "airtrack.py").write_text(text)
+    shutil.copy(HERE / "examples.py", tmp_path)
+    out = subprocess.run(
+        [sys.executable, "airtrack.py", "stability", "12"], cwd=tmp_path, text=True,
+        capture_output=True, env=environment(), check=True).stdout
+    rows = {name: letters.split() for name, letters in re.findall(
+        r"^(\w+ \+ \w+) +(.*)$", out, re.MULTILINE)}
+    for correction in ("none", "surface", "rebound"):
+        assert len(rows[f"mean + {correction}"]) == 9
+        assert rows[f"mean + {correction}"] == rows[f"exact + {correction}"]
+    assert len(rows) == 14
+
+
+@pytest.mark.parametrize("words", COMMANDS)
+def test_every_command_line_is_one(words: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("film", "chart", "stability"):
+        monkeypatch.setattr(airtrack, name, lambda *_: 0)
+    assert airtrack.obey(words.split()) == 0
 
 
 def test_pip_install_brings_the_dependencies_alone() -> None:
@@ -71,4 +112,4 @@ def test_pip_install_brings_the_dependencies_alone() -> None:
 
 def test_it_does_not_grow() -> None:
     text = re.sub(r"^```.*?^```$|^\|.*?$", "", README, flags=re.MULTILINE | re.DOTALL)
-    assert 1000 < len(text.split()) <= 2000
+    assert 1000 < len(text.split()) <= 1500
