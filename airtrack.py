@@ -425,7 +425,7 @@ def first_within(series: list[tuple[float, float]], pixel_m: float) -> str:
     for index, fps in enumerate(CHART_FPS):
         if max(error_m for error_m, _ in series[index:]) <= pixel_m:
             return f"{fps:5} FPS{two_digits(series[index][1]):>6}"
-    return f"> {CHART_FPS[-1]} FPS     "
+    return f" > {CHART_FPS[-1]} FPS    "
 
 def table(scene: Scene) -> Points:
     """Measure every series at every rate, and print it row by row."""
