@@ -661,8 +661,7 @@ def manual() -> int:
         print(f"  {number:2}  {example.title}")
     print("\nSettings: default, meaning, what is allowed")
     for row in fields(Scene):
-        text = f"{row.metadata['meaning']}: {allowed_text(row)}"
-        say(f"  {row.name:20}{row.default!s:9}{text}", indent=31)
+        say(f"  {row.name:20}{row.default!s:9}{row.metadata['meaning']}: {allowed_text(row)}", 31)
     return 0
 
 def value_of(kind: Callable[[str], object], text: str) -> object:
@@ -674,7 +673,8 @@ def value_of(kind: Callable[[str], object], text: str) -> object:
 
 def refusal(word: str) -> BadInput:
     """A word that is none, and the name most like it."""
-    names = {name.lower(): name for name in ("--help", *COMMANDS, *OPTIONS, *SETTINGS)}
+    names = {name.lower(): name for name in ("--help", *COMMANDS, *OPTIONS)}
+    names |= {name.lower(): f"{name}=VALUE" for name in SETTINGS}
     near = difflib.get_close_matches(word.partition("=")[0].lower(), names, n=1)
     hint = f"nearest: {names[near[0]]}" if near else "python airtrack.py -h lists all"
     return BadInput(f"{word!r} is no EXAMPLE (whole number), command, option or NAME=VALUE; {hint}")

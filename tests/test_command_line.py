@@ -52,8 +52,9 @@ NEAREST = {name.swapcase(): name for name in NAMES} | {  # a word that is none: 
     "--frame": "--frames", "--fast=yes": "--fast", "chrat": "chart", "stabillity": "stability"}
 NEAR_NONE = ("ten", "3.5", "-x", "speed=2", "v=3", "=3", "", " ", "a\nb", "--\n", "\0", "\u00e4",
              "9" * 5000)
-HINTS = {word: f"nearest: {name}" for word, name in NEAREST.items()} | dict.fromkeys(
-    NEAR_NONE, "python airtrack.py -h lists all")
+VALUES = dict.fromkeys((name for name, *_ in TABLE), "=VALUE")
+HINTS = {word: f"nearest: {name}{VALUES.get(name, '')}" for word, name in NEAREST.items()}
+HINTS |= dict.fromkeys(NEAR_NONE, "python airtrack.py -h lists all")
 
 
 @pytest.mark.parametrize(("words", "sentence"), [
