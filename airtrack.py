@@ -354,6 +354,9 @@ INKS = {  # marks of film, chart and map: their colour, as terminals number it
     "bP": 34,  # blue
     "sS": 35,  # violet
 }
+COLOURED = {
+    ord(mark): f"\033[{ink}m{mark}\033[0m" for marks, ink in INKS.items() for mark in marks
+}
 
 def inked(line: str) -> str:
     """The line with its marks in colours; as it is, where they are not wanted."""
@@ -361,11 +364,7 @@ def inked(line: str) -> str:
         return line
     if not sys.stdout.isatty():
         return line
-    coloured = {}
-    for marks, ink in INKS.items():
-        for mark in marks:
-            coloured[ord(mark)] = f"\033[{ink}m{mark}\033[0m"
-    return line.translate(coloured)
+    return line.translate(COLOURED)
 
 def say(text: str, indent: int = 0) -> None:
     """Print a paragraph as wide as the terminal, or as is good to read."""
