@@ -47,99 +47,125 @@ EXAMPLES = {
         "left_edge_m": 0.5, "right_edge_m": 17.5, "m_to_px": 7.0, "width_px": 126,
         "fps_target": 1 / 0.015, "correction": "surface", "auto_off": False,
         "show_collision_mark": False},
-        "An air track: * is the car, | are the walls, every line is a moment. This is the engine "
-        "in its simplest form; python airtrack.py 1 begins the tour, -h lists it.",
+        "An air track: * is the car, | are the walls, and each line is one moment. This is the "
+        "engine in its simplest form. python airtrack.py 1 begins the tour; -h lists it.",
         details=True),
     1: Example("A first look", {
         "x_m": 2.0, "a_mps2": -1.5, "CR": 0.7, "show_collision_mark": False},
-        "Every line is one moment: | are the walls, * is the car. Keep your eyes on the bottom "
+        "Each line is one moment: | are the walls, * is the car. Keep your eyes on the bottom "
         "row, or cover the rows above it with a sheet of paper: there the car moves. The rows "
-        "above are its path, time running down. From rest it is pulled to the left, and it keeps "
-        "70 % of its speed at each bounce, until it rests against the wall and the run stops by "
-        "itself, after 251 frames.", pause_s=5.0),
+        "above are its path; time runs down. The car starts at rest and is pulled to the left. It "
+        "keeps 70 % of its speed at each bounce, until it rests against the wall and the run stops "
+        "by itself, after 251 frames. For the whole tour: before each film, say where the car will "
+        "turn.", pause_s=5.0),
     2: Example("No correction", {
         "x_m": 1.65, "v_mps": 2.7, "CR": 1.0, "correction": "none", "show_collision_mark": False},
-        "Nothing puts the car back on the track after a collision: look how it is drawn beyond the "
-        "walls, by up to 8 cm. It is elastic (CR = 1) and nothing pulls at it, so it "
-        "comes back out as fast as it went in, and never stops: press x."),
+        "Nothing puts the car back on the track after a collision: watch it go into the walls, by "
+        "up to 8 cm. It is elastic (CR = 1) and nothing pulls at it, so it comes back out as fast "
+        "as it went in. It never stops: press x."),
     3: Example("No correction, and stuck", {
         "x_m": 2.0, "a_mps2": -1.5, "CR": 0.6, "correction": "none", "auto_off": False,
         "show_collision_mark": False},
-        "In frame 46 (t = 1.53 s) the car is beyond the left wall. It is turned round and keeps "
-        "60 % of its speed, too little to get back out in one frame against the pull. So the next "
-        "frame finds it in collision again and turns it round again, inwards. It never comes back: "
-        "it sinks, about 1 mm a frame, and where it has left the picture, at full width from "
-        "frame 273 on, there is a < instead. Press x.", pause_s=4.0),
+        "In frame 46 (t = 1.53 s) the car is beyond the left wall. Its velocity is reversed and "
+        "60 % of the speed is kept: too little to get back out in one frame, against the pull. So "
+        "the next frame finds it beyond the wall again and reverses its velocity again, now into "
+        "the wall. It never comes back. It sinks by about 1 mm a frame. At full width it is out of "
+        "the picture from frame 273 on: there is a < instead. Press x.", pause_s=4.0),
     4: Example("A high frame rate", {
         "x_m": 0.2, "v_mps": 10.0, "a_mps2": -10.0, "CR": 0.8, "fps_target": 300.0,
         "show_collision_mark": False},
-        "At 300 FPS a bounce is hundreds of lines long. It stops after 1880 frames; scroll back "
-        "then, as far as your terminal keeps them, and the shrinking bounces are drawn as a tail. "
-        "The car starts just beyond the left wall, at 10 m/s: a collision in each of the first two "
-        "frames, which is why it leaves the wall at 6.4 m/s."),
+        "At 300 FPS a bounce is hundreds of lines long. The run stops after 1880 frames. Then "
+        "scroll back, as far as your terminal keeps the lines: the shrinking bounces are drawn as "
+        "a tail. The car starts just beyond the left wall, at 10 m/s. Each of the first two frames "
+        "finds it in collision, so it leaves the wall at 6.4 m/s."),
     5: Example("Where each collision was found", {
         "x_m": 2.0, "v_mps": 3.0, "a_mps2": 2.0, "CR": 0.7},
-        "Pulled to the right. Each 0 is where the move alone had put the car, beyond the wall, and "
-        "the * in its line is where the correction put it instead: on the other side of the wall, "
-        "at 70 % of that distance. Most collisions are too near the wall for that: 7 of 19 show a "
-        "0 at full width, first in frame 67; in 80 columns one does, in frame 112. With "
-        "fps_target=10 each of the first five bounces does (x ends it). At rest after 236 frames."),
+        "The car is pulled to the right. Each 0 is where the move alone put it, beyond the wall. "
+        "The * in the same line is where the correction put it instead: on the other side of the "
+        "wall, at 70 % of that distance. Most collisions are too near the wall to show a 0: at "
+        "full width 7 of 19 do, the first in frame 67; a narrower picture may show others. With "
+        "fps_target=10 each of the first five bounces does (press x to end that film). The car is "
+        "at rest after 236 frames."),
     6: Example("Example 5 zoomed out", {
         "x_m": 2.0, "v_mps": 3.0, "a_mps2": 2.0, "CR": 0.7, "m_to_px": 30.0},
-        "The drawing changes, at full width to 58 columns from wall to wall instead of 107; the "
+        "The drawing changes: at full width the walls are 58 columns apart instead of 107. The "
         "physics does not: with d the figures are those of example 5, and the run ends after 236 "
         "frames again."),
     7: Example("Elastic, small steps", ELASTIC | {"fps_target": 240.0},
         "No speed is lost in a bounce, so the car should come back to the start mark, the dot at "
-        "2 m, every time. At 240 FPS it does, to a centimetre, which only d shows: it comes back "
-        "to 1.99 m (first in frame 633, t = 2.64 s) and to 2.00 m by turns."),
+        "2 m, every time. At 240 FPS it nearly does. It turns 1.1 cm short of the mark, first in "
+        "frame 633 (t = 2.64 s), where at full width *. is drawn; the next time it turns at the "
+        "mark, and so on, alternately."),
     8: Example("Elastic, large steps", COARSE,
-        "Example 7 at 10 FPS. The car moves as much as 0.26 m in a frame, and the correction does "
-        "not know when in the frame the bounce was. After the first bounce it turns at 1.88 m, "
-        "12 cm short of the start mark; after the second one, whose error undoes the first's, "
-        "at the mark; and so on by turns."),
+        "Example 7 at 10 FPS. The car moves up to 0.26 m in a frame, and the correction does not "
+        "know when in the frame it met the wall. After the first bounce it turns at 1.88 m, 12 cm "
+        "short of the start mark. The error of the second bounce undoes that of the first: it "
+        "turns at the mark. And so on, alternately."),
     9: Example("Elastic, large and irregular steps", COARSE | IRREGULAR,
-        "Example 8 with frames that are up to a quarter longer or shorter (jitter), each moved by "
-        "the length that the one before it really had (observed dt). So the errors of the bounces "
-        "are irregular, too: it turns elsewhere each time, first at 1.81 m (with --fast, where no "
-        "clock is observed, then at 1.68, 1.59, 1.51 m), and later beyond the start mark as well."),
+        "Example 8 with irregular frames. Each is up to a quarter longer or shorter (jitter), and "
+        "each moves the car by the observed length of the frame before (use_observed_dt). So the "
+        "errors of the bounces are irregular too, and the car turns elsewhere each time: first at "
+        "1.81 m, and after about half a minute beyond the start mark as well. With --fast, where "
+        "no clock is observed, the next turns are at 1.68, 1.59 and 1.51 m."),
     10: Example("The exact solution", EXACT,
-        "Elastic, at only 10 FPS. The car is moved by the formulas of kinematics, and each bounce "
-        "is worked out at its own moment. So it comes back to the start mark, the dot at 2 m, "
-        "every time; in example 8, by Euler's method, it does not. The first bounce is in frame "
-        "14: press p while this text stands, and then s fourteen times."),
+        "Elastic, at only 10 FPS. The car moves by the formulas of kinematics, and each bounce is "
+        "worked out at its own moment. So the car comes back to the start mark, the dot at 2 m, "
+        "every time. In example 8, by Euler's method, it does not. To see the first bounce, in "
+        "frame 14, press p now and then s fourteen times."),
     11: Example("The exact solution, irregular steps", EXACT | IRREGULAR,
         "Example 10 with the irregular frames of example 9. The exact solution does not depend on "
-        "how the time is cut into frames: the car comes back to the start mark all the same."),
+        "how the time is cut into frames, so the car comes back to the start mark all the same."),
     12: Example("The exact solution, losing energy", EXACT | IRREGULAR | {
         "CR": 0.8, "correction": "replay"},
-        "Example 11, keeping 80 % of the speed at each bounce. The bounces come faster and faster: "
-        "infinitely many before t = 11.91 s, the Zeno point, from where on the car is at rest. One "
-        "frame may hold many of them, the last one infinitely many: that takes replay. From frame "
-        "110 of 122 on they are lower than a column: the car stands at the wall."),
-    13: Example("Forward Euler gains energy", COARSE | {
-        "motion": "forward", "show_exact_mark": True},
-        "Example 8 by forward Euler. Each step adds a^2 dt^2/2 = 0.02 m^2/s^2 to the car's energy "
-        "v^2/2 - a x. So it climbs past its start mark after the first bounce, and hits the far "
-        "wall in frame 24. The o is where the exact solution has the car; the error is with d."),
+        "Example 11, but the car keeps 80 % of its speed at each bounce. The bounces come faster "
+        "and faster: infinitely many before t = 11.91 s, the Zeno point. Then the car is at rest. "
+        "A frame may hold many bounces, the last one infinitely many, and that takes replay. From "
+        "frame 110 of 122 on they are lower than a column: the car stands at the wall. Compare "
+        "python airtrack.py 12 d correction=rewind: there it hops on for eight frames more."),
+    13: Example("Forward Euler gains energy", {
+        "x_m": 0.25, "v_mps": 2.48, "a_mps2": -2.0, "CR": 1.0, "motion": "forward",
+        "fps_target": 10.0, "show_exact_mark": True},
+        "Watch where the * turns, and where the o does, the true car. In frame 13 the * turns at "
+        "1.91 m; the o turned at 1.79 m, and neither has met a wall. Forward Euler moves the car "
+        "at the velocity of the frame's start: too fast on the way up, too slow on the way down. "
+        "Each step adds a^2 dt^2/2 = 0.02 m^2/s^2 to the energy v^2/2 - a x. With motion=exact the "
+        "* stays with the o until they meet the wall, in frame 25."),
     14: Example("The rebound throws the car through the walls", QUICK,
-        "The car moves 4 m a frame, on a track of 1.95 m. The rebound puts it as far on the other "
-        "side of the wall as it was beyond it, and that is beyond the far wall: out to the left "
-        "(<), out to the right (>), and so on, 4.1 m further every other frame, still bouncing off "
-        "walls that it has left behind. In a minute it is 1.2 km away. With d there is its "
-        "position. Press x to let it go."),
+        "The car moves 4 m a frame, on a track of 1.95 m. The rebound puts it as far off the wall "
+        "as it was beyond it, and that is beyond the far wall: out to the left (<), out to the "
+        "right (>), alternately, 4.1 m further every other frame. It still bounces off walls that "
+        "it has left behind. In a minute it is 1.2 km away; d shows its position. Press x to let "
+        "it go."),
     15: Example("The same, settled wall by wall", QUICK | {
         "motion": "exact", "correction": "replay"},
-        "Example 14 by the exact solution. In a frame of 4 m the car meets both walls, goes 3.9 m "
-        "from wall to wall and back, and is 0.1 m from where it was: it seems to creep along the "
-        "track. It never stops: press x."),
+        "Example 14 by the exact solution. In a frame of 4 m the car goes from wall to wall and "
+        "back, 3.9 m, and ends 0.1 m from where it was. So it seems to creep along the track, as "
+        "wagon wheels in a film seem to turn slowly: the stroboscopic effect. It never stops: "
+        "press x."),
     16: Example("Example 8 beside the truth", COARSE | {"show_exact_mark": True},
-        "Watch the * leave the o, which is where the exact solution has the car. They are 2 cm "
-        "apart in frame 2, and as much as 0.9 m within 20 s; the error is with d."),
+        "Watch the * leave the o, the true car. They are 2 cm apart in frame 2, and up to 0.9 m "
+        "within 20 s; d shows the error."),
+    17: Example("An exact motion with a careless collision", COARSE | {
+        "motion": "exact", "show_exact_mark": True},
+        "Watch the * stay on the o until the first bounce, in frame 14, and then leave it: by up "
+        "to 1.8 m within 20 s. The motion is exact; what fails is the rebound. It puts the car "
+        "back at the speed of the frame's end, not at that of the bounce. So the car gains energy "
+        "at each bounce off the left wall, to which it is pulled, and gives some back at the right "
+        "one. In example 16 the error is 0.9 m: there Euler loses what the rebound gains. The "
+        "weakest part decides. With correction=rewind the * stays on the o."),
+    18: Example("A missed bounce", {
+        "x_m": 0.65, "v_mps": 5.0, "a_mps2": -8.0, "CR": 1.0, "motion": "exact",
+        "correction": "rewind", "fps_target": 4.0, "show_exact_mark": True},
+        "Watch the right wall in frame 3: the o has bounced off it, the * turns there untouched. "
+        "In frame 4 they are about 0.4 m apart. The move of frame 3 goes 1 cm beyond the wall and "
+        "ends back on the track, so no collision is found: a missed event. Every solver that looks "
+        "for a change of sign over a step misses some, and scipy's solve_ivp says so. With "
+        "correction=replay the * stays on the o."),
 }
 OWN_SCENE = Example("Your own scene", {},
-    "Set the start, the pull, the walls and the methods as you like: python airtrack.py 99 x_m=1 "
-    "v_mps=3 CR=0.9 d, for example; python airtrack.py -h lists all settings.")
+    "Nothing moves the car until v_mps or a_mps2 is given. You can set the start, the pull, the "
+    "walls and the methods, and python airtrack.py -h lists all settings. For example: "
+    "python airtrack.py 99 d x_m=1 v_mps=3 CR=0.9")
 
 
 # ==== The terminal's keys =======================================================================
