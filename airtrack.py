@@ -32,6 +32,7 @@ from contextlib import nullcontext
 from dataclasses import Field, dataclass, field, fields, replace
 from functools import cache
 from itertools import count, islice
+from statistics import fmean
 from typing import Any
 
 from examples import EXAMPLES, OWN_SCENE, Keys, taken_keys
@@ -348,11 +349,11 @@ def run(scene: Scene, details: bool, limit: int, keys: Keys | None,
 # ==== 6. What film, chart and map share in printing =============================================
 
 INKS = {  # marks of film, chart and map: their colour, as terminals number it
-    "0fX": 31,  # red
+    "0rXx": 31,  # red
     "ow-": 32,  # green
-    "*<>eG": 33,  # amber
-    "bP": 34,  # blue
-    "sS": 35,  # violet
+    "*<>eWGgLl": 33,  # amber
+    "bPp": 34,  # blue
+    "Ss": 35,  # violet
 }
 COLOURED = {
     ord(mark): f"\033[{ink}m{mark}\033[0m" for marks, ink in INKS.items() for mark in marks
@@ -375,37 +376,32 @@ def say(text: str, indent: int = 0) -> None:
 # ==== 7. Speed against accuracy: the chart ======================================================
 
 SPAN_S, CUTS = 20, 9  # what chart and map simulate, and in how many ways they cut it into frames
-CHART_FPS = (10, 30, 60, 120, 240, 480, 960, 1920, 3840)  # multiples of 10, or divisors
-SERIES = {"f": ("forward", "rebound"), "s": ("backward", "surface"),
-          "b": ("backward", "rebound"), "w": ("exact", "rewind"), "e": ("exact", "replay")}
+CHART_FPS = (10, 30, 60, 120, 240, 480, 960, 1920, 3840)  # multiples of 10, as simulate needs
+SERIES = {"s": ("backward", "surface"), "b": ("backward", "rebound"), "r": ("exact", "rebound"),
+          "w": ("exact", "rewind"), "e": ("exact", "replay")}
 TABLE_HEAD = """
-          f forward     s backward     b backward        w exact        e exact
-          + rebound      + surface      + rebound       + rewind       + replay
+         s backward     b backward        r exact        w exact        e exact
+          + surface      + rebound      + rebound       + rewind       + replay
  FPS  error m    us  error m    us  error m    us  error m    us  error m    us"""
 Points = dict[str, list[tuple[float, float]]]  # letter: (error_m, cost_us) at each rate
 
-@cache
-def true_state(truth: Scene, t_s: float) -> State:
-    """The state at t_s, by one exact step from the start."""
-    return step(truth, truth.x_m, truth.v_mps, t_s)[:2]
+step_once = cache(step)  # every method and every cut asks for the truth at the same moments
 
-def simulate(scene: Scene, fps: int, cut: int) -> Iterator[tuple[float, float, float]]:
-    """Yield x_m, v_mps and |x - truth| at the start and after each frame, for SPAN_S.
+def simulate(scene: Scene, fps: int, cut: int) -> Iterator[tuple[State, State]]:
+    """Run for SPAN_S. Yield the car's state and the true one every 0.1 s, or each longer frame.
 
     Where in a frame the car meets a wall is luck. So a run begins cut/9 of a frame late, where the
-    car then truly is. |x - truth| is taken every 0.1 s, or after each longer frame; 0 in between.
+    car then truly is.
     """
-    truth, dt_s, late_s = truth_of(scene), 1 / fps, cut / CUTS / fps
+    truth = truth_of(scene)
+    late_s = cut / CUTS / fps
     frames_a_sample = max(1, fps // 10)
     x_m, v_mps, _ = step(truth, truth.x_m, truth.v_mps, late_s)
-    yield x_m, v_mps, 0.0
-    for frame in range(1, SPAN_S * fps + 1):
-        x_m, v_mps, _ = step(scene, x_m, v_mps, dt_s)
-        error_m = 0.0
-        if frame % frames_a_sample == 0:
-            true_m, _, _ = step(truth, *true_state(truth, frame / fps), late_s)
-            error_m = abs(x_m - true_m)
-        yield x_m, v_mps, error_m
+    for frame in range(frames_a_sample, SPAN_S * fps + 1, frames_a_sample):
+        for _ in range(frames_a_sample):
+            x_m, v_mps, _ = step(scene, x_m, v_mps, 1 / fps)
+        true_m, true_mps, _ = step_once(truth, truth.x_m, truth.v_mps, frame / fps)
+        yield (x_m, v_mps), step(truth, true_m, true_mps, late_s)[:2]
 
 def cost_us(scene: Scene, fps: int) -> float:
     """Processor time of the bare steps for a simulated second, the best of several runs."""
@@ -434,14 +430,15 @@ def table(scene: Scene) -> Points:
         row = f"{fps:4}"
         for letter, (motion, correction) in SERIES.items():
             method = replace(scene, motion=motion, correction=correction)
-            runs = (simulate(method, fps, cut) for cut in range(CUTS))
-            error_m = max(error_m for run in runs for _, _, error_m in run)
+            error_m = max(abs(x_m - true_m) for cut in range(CUTS)
+                          for (x_m, _), (true_m, _) in simulate(method, fps, cut))
             us = cost_us(method, fps)
             points[letter].append((error_m, us))
             row += f"{error_m:9.1e}{two_digits(us):>6}"
         print(row, flush=True)
     print(f"Within a pixel ({1000 / scene.m_to_px:.3g} mm) in every cut: from what rate on, its us")
-    print("    " + "".join(first_within(series, 1 / scene.m_to_px) for series in points.values()))
+    cells = (first_within(series, 1 / scene.m_to_px) for series in points.values())
+    print(f"    {''.join(cells)}\n")
     return points
 
 def error_px(error_m: float) -> int:
@@ -452,14 +449,17 @@ def picture(points: Points, pixel_m: float) -> None:
     """Print the points as a film: processor time runs downwards, four rows a power of ten."""
     marks = [(round(4 * math.log10(us)), error_px(error_m), letter)
              for letter, series in points.items() for error_m, us in series]
-    wall_px = error_px(pixel_m)
-    print("\nDownwards: processor time for a simulated second; to the right: largest error;\n"
-          "+: series meet. The best are where both are small: in the upper left.")
-    print(f"\n{'one drawn pixel |':>{wall_px + 11}}")
+    limit_px = error_px(pixel_m)
+    say("To the right: largest error, looked at every 0.1 s. Downwards: processor time for a "
+        "simulated second, in us (microseconds). So the best are in the upper left. Beyond the | "
+        "the error is more than one drawn pixel, and a film shows it.")
+    say("; ".join(f"{letter} {' + '.join(method)}" for letter, method in SERIES.items())
+        + "; + where series meet.")
+    print(f"\n{'one drawn pixel |':>{limit_px + 11}}")
     print("    us    <= 1 um 10 um   0.1 mm  1 mm    1 cm    0.1 m   1 m     >= 10 m")
     for row in range(min(marks)[0], max(marks)[0] + 1):
         line = bytearray(b" " * 57)
-        paint(line, "|", wall_px)
+        paint(line, "|", limit_px)
         for cost_px, column, letter in marks:
             if cost_px == row:
                 paint(line, letter if chr(line[column]) in f" |{letter}" else "+", column)
@@ -479,14 +479,15 @@ def save(figure: Any, file: str, points: Points, pixel_m: float, heading: str) -
     """Draw the points with matplotlib as well. Raises BadInput where that is refused."""
     figure.suptitle(f"Speed against accuracy\n{textwrap.fill(heading, 84)}")
     axes = figure.add_subplot(
-        xscale="log", yscale="log", ylabel=f"largest error in {SPAN_S} s (m): better downwards",
-        xlabel="processor time for a simulated second (\N{MICRO SIGN}s): better to the left\n"
-               f"each line begins at {CHART_FPS[0]} FPS and ends at {CHART_FPS[-1]} FPS")
+        xscale="log", yscale="log", xlabel=f"largest error in {SPAN_S} s (m): better to the left",
+        ylabel="processor time for a simulated second (\N{MICRO SIGN}s): better upwards")
+    axes.invert_yaxis()
     for letter, series in points.items():
         errors_m = [max(error_m, 1e-16) for error_m, _ in series]  # 0 has no logarithm
-        axes.plot([us for _, us in series], errors_m, "o-", label=" + ".join(SERIES[letter]))
-    axes.axhline(pixel_m, color="black", linestyle="--", label=f"one drawn pixel, {pixel_m:.2g} m")
-    figure.legend(loc="outside lower center", ncols=3)
+        axes.plot(errors_m, [us for _, us in series], "o-", label=" + ".join(SERIES[letter]))
+    axes.axvline(pixel_m, color="black", linestyle="--", label=f"one drawn pixel, {pixel_m:.2g} m")
+    figure.legend(loc="outside lower center", ncols=3, title="Each line begins at "
+                  f"{CHART_FPS[0]} FPS, at the top, and ends at {CHART_FPS[-1]} FPS")
     try:
         figure.savefig(file)
     except Exception as fault:  # whatever matplotlib or the disk refuse
@@ -495,54 +496,70 @@ def save(figure: Any, file: str, points: Points, pixel_m: float, heading: str) -
 
 def chart(scene: Scene, heading: str, file: str | None) -> None:
     """Print the table and the picture; with a file, save the picture as well."""
-    figure = None if file is None else new_figure(file)  # refused before the measuring
+    figure = None if file is None else new_figure(file)  # some refusals come before the measuring
     say(f"Speed against accuracy. {heading}")
-    points, pixel_m = table(scene), 1 / scene.m_to_px
-    picture(points, pixel_m)
+    points = table(scene)
+    picture(points, 1 / scene.m_to_px)
     if file is not None:
-        save(figure, file, points, pixel_m, heading)
+        save(figure, file, points, 1 / scene.m_to_px, heading)
 
 
 # ==== 8. Where methods fail: the stability map ==================================================
 
-MAP_FPS = (1, 2, 5, 10, 30, 60, 120, 240, 1000)
-VERDICTS = {
-    "X": "thrown further than a track's length beyond a wall",
+MAP_FPS = (1, 2, 5, 10, 30, 60, 120, 240, 1000)  # at most 10, or multiples of it
+VERDICTS = {  # from the worst to the best
+    "X": "out: further than a track's length beyond a wall",
     "S": "stuck: beyond the same wall all through the last 5 s",
-    "G": "gained energy: more than 1 % above that of its start",
-    "P": "more than a drawn pixel from the truth at some sample",
-    "-": "within a pixel of the truth at every sample",
+    "W": "wandering: some of the nine cuts gain energy, others lose it",
+    "G": "gain: in the last 5 s, on average, over 1 % more energy than the true car",
+    "L": "loss: over 1 % less",
+    "P": "the right energy, but more than a drawn pixel off at some sample",
+    "-": "within a drawn pixel of the truth at every sample",
 }
 
 def verdict(scene: Scene, fps: int, cut: int) -> str:
-    """The first of VERDICTS, which begin with the worst, that a run deserves."""
+    """The letter for one run, the first that fits. (W is for several runs.)"""
     states = list(simulate(scene, fps, cut))
-    beyond_m = [x_m - scene.to_track(x_m) for x_m, _, _ in states]
-    low_m = scene.right_edge_m if scene.a_mps2 > 0 else scene.left_edge_m  # here E is v^2/2
-    energies = [v_mps * v_mps / 2 - scene.a_mps2 * (x_m - low_m) for x_m, v_mps, _ in states]
-    if max(map(abs, beyond_m)) > scene.right_edge_m - scene.left_edge_m:
+    beyond_m = [x_m - scene.to_track(x_m) for (x_m, _), _ in states]
+    track_m = scene.right_edge_m - scene.left_edge_m
+    if max(map(abs, beyond_m)) > track_m:
         return "X"
-    if min(beyond_m[-5 * fps:]) > 0 or max(beyond_m[-5 * fps:]) < 0:
+    last = slice(-len(states) // 4, None)  # 5 s of 20
+    if min(beyond_m[last]) > 0 or max(beyond_m[last]) < 0:
         return "S"
-    if max(energies) > 1.01 * energies[0] + 1e-9:
-        return "G"
-    return "P" if max(error_m for _, _, error_m in states) > 1 / scene.m_to_px else "-"
+    if max(abs(x_m - true_m) for (x_m, _), (true_m, _) in states) <= 1 / scene.m_to_px:
+        return "-"
+    # E = v^2/2 - a x, as in section 2. The limit is 1 % of what the scene has of it.
+    gain = fmean((v_mps**2 - true_mps**2) / 2 - scene.a_mps2 * (x_m - true_m)
+                 for (x_m, v_mps), (true_m, true_mps) in states[last])
+    limit = 0.01 * (scene.v_mps**2 / 2 + abs(scene.a_mps2) * track_m)
+    return "G" if gain > limit else "L" if gain < -limit else "P"
+
+def cell(found: set[str]) -> str:
+    """One letter for the verdicts of the nine cuts: the worst, small if only some deserve it."""
+    worst = min(found, key=list(VERDICTS).index)
+    if worst == "G" and "L" in found:
+        return "W"
+    return worst if len(found) == 1 else worst.lower()
 
 def stability(scene: Scene, heading: str) -> None:
-    """Print the map: a row a method, a column a rate, a letter for the worst of the cuts."""
+    """Print the map: a row a method, a column a rate, a letter for the nine cuts."""
+    rates = f"{'FPS':20}" + "".join(f"{fps:6}" for fps in MAP_FPS)
     say(f"Stability. {heading}")
-    print(f"\n{'FPS':20}" + "".join(f"{fps:6}" for fps in MAP_FPS))
+    print(f"\n{rates}")
     for motion in MOTIONS:
         print()
         for correction in (*CORRECTIONS, "replay"):
             if motion != "exact" and correction in EXACT_ONLY:
                 continue
-            method, row = replace(scene, motion=motion, correction=correction), ""
-            for fps in MAP_FPS:
-                found = {verdict(method, fps, cut) for cut in range(CUTS)}
-                row += f"{min(found, key=list(VERDICTS).index):>6}"
+            method = replace(scene, motion=motion, correction=correction)
+            row = "".join(f"{cell({verdict(method, fps, cut) for cut in range(CUTS)}):>6}"
+                          for fps in MAP_FPS)
             print(f"{f'{motion} + {correction}':20}{inked(row)}", flush=True)
-    print("\nThe worst that happened in any of the nine cuts; from the worst to the best:")
+    print(f"\n{rates}\n")
+    say("The worst of the nine cuts, from X to -; a small letter where only some deserve it. A row "
+        "need not improve to the right: how far beyond a wall a frame finds the car is luck. Where "
+        "the scene loses energy, G is mostly a car that does not come to rest.")
     for letter, meaning in VERDICTS.items():
         print(f"{inked(letter)}  {meaning}")
 

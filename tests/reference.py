@@ -16,6 +16,11 @@ TOO_SHORT_S = Decimal("1e-30")
 
 def positions(scene: Scene, times_s: list[Decimal]) -> Iterator[Decimal]:
     """Where the car is at each of the times, which ascend."""
+    return (x for x, _ in states(scene, times_s))
+
+
+def states(scene: Scene, times_s: list[Decimal]) -> Iterator[tuple[Decimal, Decimal]]:
+    """Position and velocity at each of the times, which ascend."""
     with localcontext(PRECISE):
         x, v, a = Decimal(scene.x_m), Decimal(scene.v_mps), Decimal(scene.a_mps2)
         walls = {-1: Decimal(scene.left_edge_m), 1: Decimal(scene.right_edge_m)}
@@ -35,7 +40,7 @@ def positions(scene: Scene, times_s: list[Decimal]) -> Iterator[Decimal]:
                     a = Decimal(0)
             t = moment - now
             x, v, now = x + v * t + a * t * t / 2, v + a * t, moment
-            yield x
+            yield x, v
 
 
 def time_to(wall: Decimal, side: int, x: Decimal, v: Decimal, a: Decimal) -> Decimal:

@@ -10,9 +10,9 @@ from contextlib import redirect_stdout
 from pathlib import Path
 
 import pytest
-from test_chart import printed
 
 import airtrack
+from figures import printed
 from films import HERE, environment, film
 
 Capture = pytest.CaptureFixture[str]
@@ -60,7 +60,7 @@ def test_the_lines_of_python_print_what_it_says() -> None:
 
 
 def test_the_map_and_the_chart_s_errors_are_those_of_the_program() -> None:
-    assert listing("X  thrown") in printed("stability", "10")
+    assert listing("X  out") in printed("stability", "10")
     figures = [re.findall("[0-9.]+e[+-][0-9]+", text) for text in (
         listing("FPS  error m"), printed("chart", "10"))]
     assert len(figures[0]) == 45
@@ -70,7 +70,7 @@ def test_the_map_and_the_chart_s_errors_are_those_of_the_program() -> None:
 def test_the_rates_and_errors_of_which_method_when_are_those_of_the_chart() -> None:
     ten, twelve = (printed("chart", number) for number in ("10", "12"))
     assert re.search("^Within.*\n *> 3840 FPS +> 3840 FPS +> 3840 FPS +10 FPS", ten, re.MULTILINE)
-    assert re.search("^Within.*\n *3840 FPS +\\d+ +960 FPS +\\d+ +480 FPS", twelve, re.MULTILINE)
+    assert re.search("^Within.*\n *960 FPS +\\d+ +480 FPS +\\d+ +1920 FPS", twelve, re.MULTILINE)
     assert re.search("^  10 .* 2.0e-03 ", twelve, re.MULTILINE)
 
 

@@ -1,0 +1,90 @@
+"""What chart and stability map print, and the same told plainly."""
+
+import io
+from collections.abc import Iterator
+from contextlib import redirect_stdout
+from dataclasses import replace
+from decimal import Decimal
+from functools import cache
+
+import pytest
+
+import airtrack
+from airtrack import Scene, State, main
+from reference import states
+
+RATES = (10, 30, 60, 120, 240, 480, 960, 1920, 3840)
+Samples = list[tuple[State, State]]
+simulate = airtrack.simulate
+
+
+def no_measuring(patch: pytest.MonkeyPatch) -> None:
+    """Costs that depend on no machine. (That they are measured well, a test of its own tells.)"""
+    patch.setattr(airtrack, "cost_us", lambda scene, fps: fps * len(scene.motion) / 10)
+
+
+@cache
+def simulated(scene: Scene, fps: int, cut: int) -> Samples:
+    return list(simulate(scene, fps, cut))
+
+
+@cache
+def printed(*words: str) -> str:
+    """What the program printed. Each run is simulated once, as the zoom does not change it."""
+    with pytest.MonkeyPatch.context() as patch, redirect_stdout(io.StringIO()) as out:
+        no_measuring(patch)
+        patch.setenv("COLUMNS", "80")
+        patch.setattr(airtrack, "simulate", lambda scene, fps, cut: simulated(
+            replace(scene, m_to_px=1.0), fps, cut))
+        assert main(list(words)) == 0
+    assert max(map(len, out.getvalue().splitlines())) <= 80
+    return out.getvalue()
+
+
+@cache
+def columns(*words: str) -> list[tuple[list[str], ...]]:
+    """The columns of the chart's table, the rates' and each series': the words in each cell."""
+    _, lines, *_ = printed("chart", *words).split("\n\n")
+    return list(zip(*(
+        [line[:4].split(), *(line[at:at + 15].split() for at in range(4, 79, 15))]
+        for line in lines.splitlines()), strict=True))
+
+
+def errors_m(example: str, letter: str) -> list[float]:
+    """The errors of a series, one for each rate."""
+    return [float(cell[0]) for cell in columns(example)[1 + "sbrwe".index(letter)][3:-2]]
+
+
+@cache
+def told_plainly(motion: str, correction: str, CR: float, fps: int, cut: int) -> Samples:
+    """The samples of a fall from 2 m at 2 m/s^2, of which the true ones are 60-digit decimals."""
+    def run() -> Iterator[tuple[State, State]]:
+        dt_s, late_s, frames = 1 / fps, cut / 9 / fps, max(1, fps // 10)
+        x, v = 2 - late_s**2, -2 * late_s
+        times_s = [Decimal(late_s + frame / fps) for frame in range(frames, 20 * fps + 1, frames)]
+        for true_x, true_v in states(Scene(x_m=2, a_mps2=-2, CR=CR), times_s):
+            for _ in range(frames):
+                move = v * dt_s if motion == "forward" else (v - 2 * dt_s) * dt_s
+                x += v * dt_s - dt_s**2 if motion == "exact" else move
+                v -= 2 * dt_s
+                wall = min(max(x, 0.25), 2.2)
+                if x != wall:
+                    x = {"none": x, "surface": wall, "rebound": wall - CR * (x - wall)}[correction]
+                    v *= -CR
+            yield (x, v), (float(true_x), float(true_v))
+    return list(run())
+
+
+def letter_told_plainly(samples: Samples) -> str:
+    """What a run of that fall deserves on the map, at 55 px/m."""
+    if any(x < 0.25 - 1.95 or x > 2.2 + 1.95 for (x, _), _ in samples):
+        return "X"
+    last = samples[len(samples) * 3 // 4:]
+    if all(x < 0.25 for (x, _), _ in last) or all(x > 2.2 for (x, _), _ in last):
+        return "S"
+    if all(abs(x - true_x) * 55 <= 1 for (x, _), (true_x, _) in samples):
+        return "-"
+    mean, true_mean = (sum(v * v / 2 + 2 * x for x, v in cars) / len(last)
+                       for cars in zip(*last, strict=True))
+    gain = (mean - true_mean) / (2 * 1.95)
+    return "G" if gain > 0.01 else "L" if gain < -0.01 else "P"
