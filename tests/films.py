@@ -15,10 +15,11 @@ HERE = Path(__file__).resolve().parent.parent
 COMMAND = [sys.executable, str(HERE / "airtrack.py")]
 
 # Nothing else of the environment in which the tests are started reaches a run: no display, no
-# colours turned off, no width.
-KEPT = ("PATH", "HOME", "SYSTEMROOT", "TEMP", "TMP", "LD_LIBRARY_PATH", "XDG_RUNTIME_DIR")
+# colours turned off, no width. Where there is always a display, dummy keeps the window shut.
+KEPT = ("PATH", "HOME", "USERPROFILE", "SYSTEMROOT", "TEMP", "TMP", "LD_LIBRARY_PATH",
+        "XDG_RUNTIME_DIR")
 CLEAN = {name: os.environ[name] for name in KEPT if name in os.environ} | {
-    "TERM": "xterm", "LANG": "C.UTF-8"}
+    "TERM": "xterm", "LANG": "C.UTF-8", "SDL_VIDEODRIVER": "dummy"}
 
 
 class Film(NamedTuple):

@@ -71,18 +71,23 @@ class Film:
     def press(self, *keys: str) -> None:
         self.screen.xdotool("key", *keys)
 
-    def face(self) -> Counter[tuple[int, int, int]]:
-        """How often each colour (red, green, blue) is on it."""
+    def place(self) -> list[int]:
+        """Left, top, width and height."""
         place = self.screen.xdotool("getwindowgeometry", "--shell", self.window)
-        left, top, width, height = (int(re.findall(f"{name}=([0-9]+)", place)[0])
-                                    for name in ("X", "Y", "WIDTH", "HEIGHT"))
+        return [int(re.findall(f"{name}=([0-9]+)", place)[0])
+                for name in ("X", "Y", "WIDTH", "HEIGHT")]
+
+    def face(self, margin_px: int = 0) -> Counter[tuple[int, int, int]]:
+        """How often each colour (red, green, blue) is on it, or on its left and right margins."""
+        left, top, width, height = self.place()
         content = self.screen.picture.read_bytes()  # as xwd writes it: header, colours, rows
         header = struct.unpack(">25I", content[:100])
         counts: Counter[tuple[int, int, int]] = Counter()
         for row in range(top, top + height):
             at = header[0] + 12 * header[19] + header[12] * row + 4 * left
-            counts.update((red, green, blue) for blue, green, red, _ in struct.iter_unpack(
-                "4B", content[at:at + 4 * width]))
+            pixels = list(struct.iter_unpack("4B", content[at:at + 4 * width]))
+            counts.update((red, green, blue) for blue, green, red, _ in (
+                pixels[:margin_px] + pixels[-margin_px:] if margin_px else pixels))
         return counts
 
     def shows(self, caption: str, colour: tuple[int, int, int]) -> None:
@@ -109,7 +114,7 @@ class Film:
 def film(screen: Screen, tmp_path: Path) -> Iterator[Film]:
     with (tmp_path / "out").open("wb") as out, subprocess.Popen(
             COMMAND, stdin=subprocess.DEVNULL, stdout=out, stderr=out, cwd=HERE,
-            env=environment(DISPLAY=screen.name)) as process:
+            env=environment(DISPLAY=screen.name, SDL_VIDEODRIVER=None)) as process:
         try:
             yield Film(screen, process, tmp_path / "out")
         finally:
@@ -119,9 +124,11 @@ def film(screen: Screen, tmp_path: Path) -> Iterator[Film]:
 @needs_window
 def test_caption_and_face_say_which_keys_there_are_and_whether_the_film_is_paused(
         film: Film) -> None:
-    assert film.face().total() == 300 * 20
+    assert film.place() == [60, 60, 300, 20]  # away from the film's newest line
+    assert set(film.face(margin_px=3)) == {WHITE}  # no word is cut off
     film.press("p")
     film.shows(PAUSED, DARK_ORANGE)
+    assert set(film.face(margin_px=3)) == {DARK_ORANGE}
     film.press("s", "s", "ctrl+s")
     film.shows(RUNNING, WHITE)
     film.press("s")
@@ -168,7 +175,7 @@ def close(display: str, window: int) -> None:
 def test_window_and_terminal_serve_together_and_a_signal_ends_both(screen: Screen) -> None:
     from test_terminal import Terminal, quick
 
-    with Terminal(*quick(pause_s=1e6), DISPLAY=screen.name) as terminal:
+    with Terminal(*quick(pause_s=1e6), DISPLAY=screen.name, SDL_VIDEODRIVER=None) as terminal:
         terminal.until("Keys, in the little window and in this terminal: p ", "it.\r\n")
         terminal.press("p")
         terminal.until("paused")
@@ -193,7 +200,7 @@ def why_shut(**changes: str | None) -> str:
 
 @needs_window
 def test_it_opens_without_a_word_and_leaves_the_sound_system_alone(screen: Screen) -> None:
-    assert why_shut(DISPLAY=screen.name) == ""
+    assert why_shut(DISPLAY=screen.name, SDL_VIDEODRIVER=None) == ""
 
 
 @pytest.mark.parametrize(("text", "why"), [
