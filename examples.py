@@ -193,9 +193,12 @@ if sys.platform == "win32":
         give_back = take
 
 else:
-    # What a terminal sends for a key that is no character: Esc [ ... for an arrow, Esc O ... for
-    # F1, Esc and the character for Alt. Only an Esc that nothing follows is the Esc key.
-    SEQUENCE = re.compile(rb"\x1b+(\[?[\[O][0-9;]*[A-Za-z~]|[^\x1b\[O])")
+    # What a terminal sends that is no character: Esc and a character for Alt, Esc O ... for F1,
+    # Esc [ ... for an arrow or a mouse report, Esc P or ] ... for a reply (as in ECMA-48; [[ and
+    # [M... are older). Only an Esc that nothing follows is the Esc key.
+    SEQUENCE = re.compile(
+        rb"\x1b+(\[M...|(O|\[(?!M)\[?)[0-?]*[ -/]*[@-~]|[]P].*?(\a|\x1b\\)|[^][OP\x1b])", re.DOTALL)
+    CUT_OFF = re.compile(rb"\x1b+[^\x1b]+")
 
     class Terminal:
         """The keys of a terminal, one by one, unechoed. It is touched from the foreground only."""
@@ -230,10 +233,10 @@ else:
         def read(self) -> str:
             """The keys pressed since the last call, as characters."""
             self.take()
-            keys = self.piece(0.0)
-            if keys.endswith(b"\x1b"):  # the first byte of an arrow? The others follow at once.
-                keys += self.piece(0.05)
-            return SEQUENCE.sub(b"", keys).decode("ascii", "ignore")
+            keys = SEQUENCE.sub(b"", self.piece(0.0))
+            while b"\x1b" in keys and (rest := self.piece(0.05)):  # the rest follows at once
+                keys = SEQUENCE.sub(b"", keys + rest)
+            return CUT_OFF.sub(b"", keys).decode("ascii", "ignore")
 
         def piece(self, wait_s: float) -> bytes:
             """What the terminal has to read, now or within wait_s; b"" if nothing."""
