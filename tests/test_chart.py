@@ -141,20 +141,39 @@ def test_the_cost_is_the_processor_time_of_the_bare_steps_and_the_best_of_five_r
     assert taken == run * (len(taken) // len(run))
 
 
+@pytest.mark.parametrize(("command", "last", "rows"), [
+    ("chart", 60, [b"  10", b"  30"]),
+    ("stability", 1, [b"forward + none", b"forward + surface", b"forward + rebound"])])
 def test_a_row_is_out_before_the_next_is_measured_and_ctrl_c_ends_it_without_a_word(
-        monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
+        command: str, last: int, rows: list[bytes], monkeypatch: pytest.MonkeyPatch,
+        capsys: Capture) -> None:
     out, simulate = io.BytesIO(), airtrack.simulate
 
-    def until_60(scene: Scene, fps: int, cut: int) -> Iterator[tuple[State, State]]:
-        if fps == 60:
+    def interrupted(scene: Scene, fps: int, cut: int) -> Iterator[tuple[State, State]]:
+        if (scene.motion, fps) == ("backward", last):
             raise KeyboardInterrupt
         return simulate(scene, fps, cut)
 
-    monkeypatch.setattr(airtrack, "simulate", until_60)
+    monkeypatch.setattr(airtrack, "simulate", interrupted)
     monkeypatch.setattr("sys.stdout", io.TextIOWrapper(out))
-    assert main(["chart"]) == 130
-    assert re.findall(rb"(?m)^ +(\d+)  ", out.getvalue()) == [b"10", b"30"]
+    assert main([command]) == 130
+    assert re.findall(rb"(?m)^( +\d+|\w+ \+ \w+)  ", out.getvalue()) == rows
     assert capsys.readouterr().err == ""
+
+
+def test_a_clock_too_coarse_to_measure_is_no_fault(
+        monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
+    monkeypatch.setattr(airtrack, "CHART_FPS", (10, 30))
+    monkeypatch.setattr("time.process_time", lambda: 1.0)
+    assert main(["chart"]) == 0
+    assert "\n  0.01    +" in capsys.readouterr().out
+
+
+def test_a_series_without_any_error_has_its_place_in_the_saved_picture(tmp_path: Path) -> None:
+    figure = airtrack.new_figure(".svg")
+    airtrack.save(figure, str(tmp_path / "c.svg"), {"e": [(0.0, 1.0), (0.0, 2.0)]}, 0.02, "")
+    curve, _ = figure.axes[0].lines
+    assert 0 < min(curve.get_xdata()) == max(curve.get_xdata()) < 1e-12
 
 
 def test_the_picture_has_each_point_at_its_place_and_a_wall_of_one_pixel(capsys: Capture) -> None:

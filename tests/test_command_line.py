@@ -19,26 +19,29 @@ from films import COMMAND, HERE, environment, film, program
 Capture = pytest.CaptureFixture[str]
 
 WRONG = {  # a command line that is refused: what is said of it
-    "x_m=5000": "x_m must be from -1000 to 1000 m, not 5000.0",
-    "chart 3 v_mps=nan": "v_mps must be from -1000 to 1000 m/s, not nan",
-    "stability a_mps2=1e999": "a_mps2 must be from -1000 to 1000 m/s^2, not inf",
-    "fps_target=": "fps_target must be from 0.1 to 1000 1/s, not ''",
-    "CR=0,5": "CR must be from 0 to 1, not '0,5'",
-    "m_to_px=1=2": "m_to_px must be from 0.001 to 1000 px/m, not '1=2'",
-    "width_px=99.5": "width_px must be whole, from 10 to 1000 px, not '99.5'",
+    "x_m=5000": "x_m must be a number from -1000 to 1000 m, not 5000.0",
+    "chart 3 v_mps=nan": "v_mps must be a number from -1000 to 1000 m/s, not nan",
+    "stability a_mps2=1e999": "a_mps2 must be a number from -1000 to 1000 m/s^2, not inf",
+    "fps_target=": "fps_target must be a number from 0.1 to 1000 1/s, not ''",
+    "CR=0,5": "CR must be a number from 0 to 1, not '0,5'",
+    "m_to_px=1=2": "m_to_px must be a number from 0.001 to 1000 px/m, not '1=2'",
+    "width_px=99.5": "width_px must be a whole number from 10 to 1000 px, not '99.5'",
     "motion=bakward": "motion must be forward, backward or exact, not 'bakward'",
     "auto_off=no": "auto_off must be False or True, not 'no'",
     "99 right_edge_m=0.259": "right_edge_m must be left_edge_m + 0.01 or more, not 0.259",
     "8 left_edge_m=2.195": "right_edge_m must be left_edge_m + 0.01 or more, not 2.2",
-    "8 correction=rewind": "motion must be exact with correction=rewind, not backward",
+    "8 correction=rewind": "motion must be exact with correction=rewind, not backward: set "
+                           "motion=exact, or another correction too",
+    "10 motion=forward": "motion must be exact with correction=rewind, not forward: set "
+                         "motion=exact, or another correction too",
     "12 x_m=0.2": "x_m must be from 0.25 to 2.2 with correction=replay, not 0.2",
     "3 d 4": "one EXAMPLE at a time, not both 3 and 4",
     "chart 3 stability": "one command at a time, not both chart and stability",
-    "chart d": "d is for film, not for chart",
-    "chart 3 --fast": "--fast is for film, not for chart",
-    "--frames 5 stability": "--frames is for film, not for stability",
+    "chart d": "d is for the film, not for chart",
+    "chart 3 --fast": "--fast is for the film, not for chart",
+    "--frames 5 stability": "--frames is for the film, not for stability",
     "stability --save map.png": "--save is for chart, not for stability",
-    "7 --save=film.png": "--save is for chart, not for film",
+    "7 --save=film.png": "--save is for chart, not for the film",
     "chart --save": "--save FILE must end in .png, .svg or .pdf, not ''",
     "--frames 0": "--frames N must be a whole number from 1 up, not 0",
     "--frames=-3": "--frames N must be a whole number from 1 up, not -3",
@@ -49,8 +52,9 @@ NAMES = ("--help", "chart", "stability", "d", "--fast", "--frames", "--save",
          *(name for name, *_ in TABLE))
 NEAREST = {name.swapcase(): name for name in NAMES} | {  # a word that is none: the nearest name
     "fps_taget=10": "fps_target", "cr=0.5": "CR", "CR": "CR", "-d": "d", "frames=5": "--frames",
-    "--frame": "--frames", "--fast=yes": "--fast", "chrat": "chart", "stabillity": "stability"}
-NEAR_NONE = ("ten", "3.5", "-x", "speed=2", "v=3", "=3", "", " ", "a\nb", "--\n", "\0", "\u00e4",
+    "--frame": "--frames", "--fast=yes": "--fast", "chrat": "chart", "stabillity": "stability",
+    "v=3": "v_mps", "x=1": "x_m", "a=-9.81": "a_mps2", "FPS=10": "fps_target", "-": "--help"}
+NEAR_NONE = ("ten", "3.5", "-x", "speed=2", "=3", "", " ", "a\nb", "--\n", "\0", "\u00e4",
              "9" * 5000)
 VALUES = dict.fromkeys((name for name, *_ in TABLE), "=VALUE")
 HINTS = {word: f"nearest: {name}{VALUES.get(name, '')}" for word, name in NEAREST.items()}
@@ -59,8 +63,9 @@ HINTS |= dict.fromkeys(NEAR_NONE, "python airtrack.py -h lists all")
 
 @pytest.mark.parametrize(("words", "sentence"), [
     *((words.split(), sentence) for words, sentence in WRONG.items()),
-    *((["10", word, "--fast"], f"{word!r} is no EXAMPLE (whole number), command, option or "
-       f"NAME=VALUE; {hint}") for word, hint in HINTS.items())], ids=lambda part: str(part)[:40])
+    *((["10", word, "--fast"], f"unknown word {word!r}: it must be an EXAMPLE (whole number), a "
+       f"command, an option or NAME=VALUE; {hint}") for word, hint in HINTS.items())],
+    ids=lambda part: str(part)[:40])
 def test_what_is_wrong_is_answered_in_one_sentence_and_nothing_runs(
         words: list[str], sentence: str, monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
     for name in ("run", "simulate"):
@@ -72,7 +77,7 @@ def test_what_is_wrong_is_answered_in_one_sentence_and_nothing_runs(
 def test_a_wrong_command_line_of_a_whole_process() -> None:
     done = program("ten")
     assert (done.returncode, done.stdout, done.stderr.count("\n")) == (2, "", 1)
-    assert done.stderr.startswith("airtrack.py: error: 'ten' is no EXAMPLE")
+    assert done.stderr.startswith("airtrack.py: error: unknown word 'ten': ")
 
 
 def test_a_fault_in_a_changed_program_keeps_its_traceback(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -147,10 +152,10 @@ def test_with_the_exact_mark_the_details_have_the_error_too(capsys: Capture) -> 
      "x = 2 m, at rest, pulled to the left at 2 m/s^2; CR = 0.5. Motion backward, correction "
      "rebound, 10 frames a second, use_observed_dt=True, jitter=0.25, show_start_mark=True. (The "),
     ("99", "Your own scene. The car starts at x = 1.1 m, at rest, not pulled; CR = 0.8. Motion "
-     "backward, correction rebound, 30 frames a second. Set the start, the pull, "),
+     "backward, correction rebound, 30 frames a second. Nothing moves the car "),
     ("-3 v_mps=-3 a_mps2=1.5 motion=exact", "Your own scene, v_mps=-3.0, a_mps2=1.5, motion=exact. "
      "The car starts at x = 1.1 m, moving to the left at 3 m/s, pulled to the right at 1.5 m/s^2; "
-     "CR = 0.8. Motion exact, correction rebound, 30 frames a second. Set the start, the pull, "),
+     "CR = 0.8. Motion exact, correction rebound, 30 frames a second. Nothing moves the car "),
     # Numbers are read as Python reads them, True and False in any case.
     ("1_0 x_m=1e0 width_px=0100 show_start_mark=false auto_off=FALSE", "Example 10: The exact "
      "solution, x_m=1.0, width_px=100, show_start_mark=False, auto_off=False. The car starts at "

@@ -2,6 +2,7 @@
 
 import io
 import re
+import signal
 from collections.abc import Callable
 from itertools import islice, pairwise
 
@@ -58,11 +59,13 @@ def test_the_pause_before_the_first_frame(clock: Clock, play: Play) -> None:
 
 def test_each_line_goes_out_at_once_and_does_not_wait_in_a_buffer(
         clock: Clock, monkeypatch: pytest.MonkeyPatch) -> None:
-    raw, walls = io.BytesIO(), []
+    raw, walls, headers = io.BytesIO(), [], []
     clock.when_drawn = lambda frame: walls.append(raw.getvalue().count(b"|")) or 0.0  # type: ignore
     monkeypatch.setattr("sys.stdout", io.TextIOWrapper(io.BufferedRandom(raw)))  # type: ignore
+    monkeypatch.setattr(examples.Keys, "leave_time", lambda *_: headers.append(raw.getvalue()))
     assert main(["10", "--frames", "5"]) == 0
     assert walls == [0, 2, 4, 6, 8]
+    assert b"The film begins in 3 s" in headers[0]
 
 
 # Irregular frames.
@@ -192,6 +195,13 @@ def test_keys_that_quit(key: str, why: str, clock: Clock, monkeypatch: pytest.Mo
     assert ending(out) == f"Stopped after {frames} frames, t = {frames / 10:.2f} s: {why}."
 
 
+def test_the_first_reason_to_end_wins() -> None:
+    keys = examples.Keys()
+    keys.press("x")
+    keys.note(signal.SIGTERM, None)
+    assert (keys.why_quit, keys.status) == ("x was pressed", 0)
+
+
 def test_x_is_answered_within_a_long_frame(clock: Clock, play: Play) -> None:
     began_s = clock.now_s
     play("99 fps_target=0.1", t7="x")
@@ -222,6 +232,11 @@ def test_s_goes_one_frame_further_and_pauses(play: Play) -> None:
     assert len(xs) - frames[-1] in (5, 6)
     for a_m, b_m in pairwise(xs):
         assert b_m - a_m == pytest.approx(0.04, abs=0.011)
+
+
+def test_steps_that_p_takes_back_are_not_taken_later(clock: Clock, play: Play) -> None:
+    play("99 fps_target=10", t4_05="sssp", t6="x")
+    assert min(clock.lengths_s()) > 0.09
 
 
 def test_keys_pressed_in_the_header_s_pause_count(clock: Clock, play: Play) -> None:
@@ -275,7 +290,7 @@ def test_the_keys_are_told_and_the_next_example_is_named_where_there_are_any(
     assert (f"Keys, {where}: p or Ctrl-S pauses, s steps one frame" in out) is bool(where)
     assert ("p holds this text" in out) is bool(where)
     assert out.endswith("Next: python airtrack.py 4" if where else "that is the frame limit.")
-    for last in (16, 99):
+    for last in (18, 99, -1):
         assert "Next" not in play(f"{last} --frames 2")
     assert "Next" not in play("3 --frames 2 --fast")
 
@@ -283,17 +298,22 @@ def test_the_keys_are_told_and_the_next_example_is_named_where_there_are_any(
 # The picture and the terminal.
 
 @pytest.mark.parametrize(("columns", "width_px"), [(80, 45), (200, 135), (170, 135), (20, 10)])
-def test_a_narrow_terminal_shrinks_track_and_zoom_together(
+def test_a_narrow_terminal_shrinks_picture_and_zoom_together(
         columns: int, width_px: int, monkeypatch: pytest.MonkeyPatch, play: Play) -> None:
     monkeypatch.setenv("COLUMNS", str(columns))
     monkeypatch.setattr("sys.stdout.isatty", lambda: True)
     out = play("10 d --fast --frames 40")
     lines = [line for line in out.splitlines() if "FPS =" in line]
     assert {line.index("x =") for line in lines} == {width_px}
-    assert ("physics is untouched" in " ".join(out.split())) is (width_px < 135)
+    zoom = 55 * (width_px - 1) / 134  # what is in the last column stays in the last one
+    told = f"To fit, the picture is {width_px} columns wide, {zoom:.3g} to a metre; the physics is"
+    assert (f"{told} untouched." in " ".join(out.split())) is (width_px < 135)
     walls = [i for i, c in enumerate(lines[0]) if c == "|"]
-    assert walls == [round(at_m * 55 * width_px / 135) for at_m in (0.25, 2.2)]
+    assert walls == [round(at_m * zoom) for at_m in (0.25, 2.2)]
     assert lines[13].endswith("x =   0.45, v =  2.49, FPS =  10")
+    for words in ("d right_edge_m=20 m_to_px=6.7", "right_edge_m=2.43"):
+        line = play(f"99 {words} --fast --frames 1").splitlines()[-2]
+        assert line.partition("x =")[0][-1] == "|"
 
 
 def test_the_smallest_zoom_survives_the_narrowest_terminal_and_a_pipe_has_no_width(
@@ -304,14 +324,28 @@ def test_the_smallest_zoom_survives_the_narrowest_terminal_and_a_pipe_has_no_wid
     play("10 d m_to_px=0.001 --fast --frames 1")
 
 
-def test_a_wall_outside_the_picture_is_told_with_the_zoom_that_would_show_it(play: Play) -> None:
-    for right_m, width_px in ((20, 135), (3, 40), (999.9, 10), (1000, 1000)):
-        words = f"99 right_edge_m={right_m} width_px={width_px} --fast --frames 1"
-        told = " ".join(play(words).split())
-        found = re.search(r"ends before a wall: m_to_px=([0-9.]+) would show both", told)
-        assert found
-        told = play(f"{words} m_to_px={found[1]}")
-        assert "ends before" not in told
-        assert "|" in told
-    assert "to the left of x = 0" in play("99 left_edge_m=-1 --fast --frames 1")
-    assert "A wall" not in play("99 --fast --frames 1")
+@pytest.mark.parametrize(("right_m", "width_px"), [
+    (20, 135), (3, 40), (999.9, 10), (1000, 1000), (135 / 55, 135)])
+def test_a_wall_outside_the_picture_is_told_with_the_zoom_that_would_show_it(
+        right_m: float, width_px: int, play: Play) -> None:
+    words = f"99 right_edge_m={right_m} width_px={width_px} --fast --frames 1"
+    told = " ".join(play(words).split())
+    found = re.search(r"ends before a wall: m_to_px=([0-9.]+) would show both", told)
+    assert found
+    told = play(f"{words} m_to_px={found[1]}")
+    assert "ends before" not in told
+    assert "|" in told
+
+
+@pytest.mark.parametrize(("words", "is_told"), [
+    ("left_edge_m=-1", True), ("left_edge_m=-0.01", True), ("left_edge_m=-0.009", False),
+    ("left_edge_m=0", False), ("", False)])
+def test_a_wall_to_the_left_of_the_picture_is_told(words: str, is_told: bool, play: Play) -> None:
+    out = play(f"99 {words} --fast --frames 1")
+    assert ("A wall is to the left of x = 0, where the picture begins" in out) is is_told
+    assert ("A wall" in out or "a wall" in out) is is_told
+    assert ending(out) == "Stopped after 1 frame, t = 0.03 s: that is the frame limit."
+
+
+def test_a_frame_limit_may_have_twenty_digits(play: Play) -> None:
+    assert "Stopped after 251 frames" in play(f"1 --fast --frames {'9' * 20}")
