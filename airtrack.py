@@ -5,15 +5,15 @@
     python airtrack.py chart [EXAMPLE] [NAME=VALUE ...] [--save FILE]
     python airtrack.py stability [EXAMPLE] [NAME=VALUE ...]
 
-    chart        speed against accuracy, with --save also as .png, .svg or .pdf
+    chart        speed against accuracy; --save draws it as .png, .svg or .pdf too
     stability    where methods fail
-    EXAMPLE      a number of the list below; default 0 (chart, stability: 10)
+    EXAMPLE      its number (see -h); default 0, for chart and stability 10
     d            details after each line: position, velocity, frame rate
-    NAME=VALUE   a setting of the list below, on top of the example's own
-    --fast       no pacing, no pauses, no window: for a pipe or a file
-    --frames N   stop after N frames, otherwise after 50000
+    NAME=VALUE   a setting (see -h), on top of the example's own
+    --fast       no pacing, no pauses, no window for keys: for a pipe or a file
+    --frames N   stop after N frames; without it, after 50000
 """
-# Sections 1 to 5 are the lesson, to be read from the top. examples.py has the examples and keys.
+# Sections 1 to 5 are the lesson: read them from the top. examples.py has the examples and the keys.
 
 from __future__ import annotations
 
@@ -32,7 +32,6 @@ from contextlib import nullcontext
 from dataclasses import Field, dataclass, field, fields, replace
 from functools import cache
 from itertools import count, islice
-from statistics import fmean
 from typing import Any
 
 from examples import EXAMPLES, OWN_SCENE, Keys, taken_keys
@@ -41,15 +40,15 @@ from examples import EXAMPLES, OWN_SCENE, Keys, taken_keys
 
 def setting(default: Any, meaning: str, allowed: tuple[Any, ...] = (False, True),
             unit: str = "") -> Any:
-    """A row of the table below. allowed: the lowest and highest of a number, or every choice."""
+    """A row of the table below. allowed: a number's lowest and highest value, or every choice."""
     return field(default=default, metadata={"meaning": meaning, "allowed": allowed, "unit": unit})
 
 @dataclass(frozen=True)
 class Scene:
-    """The settings; names carry their units. Raises BadInput, a ValueError: what is not allowed."""
+    """The settings; names carry their units. Raises BadInput (a ValueError) for a wrong value."""
 
     x_m: float = setting(1.1, "starting position", (-1000, 1000), "m")
-    v_mps: float = setting(0.0, "starting velocity, to the right above 0", (-1000, 1000), "m/s")
+    v_mps: float = setting(0.0, "starting velocity, positive to the right", (-1000, 1000), "m/s")
     a_mps2: float = setting(0.0, "constant acceleration", (-1000, 1000), "m/s^2")
     left_edge_m: float = setting(0.25, "the left wall", (-1000, 1000), "m")
     right_edge_m: float = setting(2.2, "the right wall", (-1000, 1000), "m")
@@ -57,15 +56,15 @@ class Scene:
     motion: str = setting("backward", "how the car is moved", ("forward", "backward", "exact"))
     correction: str = setting("rebound", "how a collision is settled",
                               ("none", "surface", "rebound", "rewind", "replay"))
-    fps_target: float = setting(30.0, "frames a second: step and pace at once", (0.1, 1000), "1/s")
-    use_observed_dt: bool = setting(False, "step by the observed length of the frame before")
-    jitter: float = setting(0.0, "how much frames vary in length: 0.25 is by a quarter", (0, 0.9))
+    fps_target: float = setting(30.0, "frames a second, for time step and pace", (0.1, 1000), "1/s")
+    use_observed_dt: bool = setting(False, "the time step follows the pace observed a frame before")
+    jitter: float = setting(0.0, "how much the pace varies; 0.25: by up to a quarter", (0, 0.9))
     auto_off: bool = setting(True, "stop when the car rests against a wall")
-    m_to_px: float = setting(55.0, "zoom, in characters a metre", (0.001, 1000), "px/m")
-    width_px: int = setting(135, "characters in a line, from x = 0 on", (10, 1000), "px")
+    m_to_px: float = setting(55.0, "zoom; a pixel is a character", (0.001, 1000), "px/m")
+    width_px: int = setting(135, "width of the picture, which begins at x = 0", (10, 1000), "px")
     show_start_mark: bool = setting(False, "draw a . where the car started")
-    show_collision_mark: bool = setting(True, "draw a 0 where the move alone ended, in a collision")
-    show_exact_mark: bool = setting(False, "draw an o where it truly is")
+    show_collision_mark: bool = setting(True, "draw a 0 where a move ended beyond a wall")
+    show_exact_mark: bool = setting(False, "draw an o where the car truly is")
 
     def __post_init__(self) -> None:
         check(self)
@@ -79,10 +78,11 @@ class Scene:
 
 # ==== 2. Moving: where is the car dt_s later, if there are no walls? ============================
 #
-# v changes during the frame. Euler's methods act as if it did not: forward takes the v of the
-# frame's start for the whole frame, backward (for a constant a the same as semi-implicit) that of
-# its end. Half the dt is half their error; exact has none at any dt.
-# E = v^2/2 - a x is the car's energy per kilogram; in free flight it should stay as it is.
+# v changes during the frame. Euler's methods hold it constant: forward takes the frame's first v,
+# backward (for a constant a the same as semi-implicit Euler) its last. Both are of first order:
+# half the dt, half the error after a given time. exact has no error at any dt, but it needs a
+# constant a, as rewind and replay do. Another force would make a a function of x and v.
+# E = v^2/2 - a x is the car's energy per kilogram. In free flight it should not change.
 
 State = tuple[float, float]  # x_m, v_mps
 
@@ -96,48 +96,52 @@ def backward(x_m: float, v_mps: float, a_mps2: float, dt_s: float) -> State:
     return x_m + v_mps * dt_s, v_mps
 
 def exact(x_m: float, v_mps: float, a_mps2: float, dt_s: float) -> State:
-    """Kinematics: x + v dt + a dt^2/2, and v + a dt. E stays."""
+    """Kinematics: x + v dt + a dt^2/2, and v + a dt. E does not change."""
     return x_m + v_mps * dt_s + a_mps2 * dt_s * dt_s / 2, v_mps + a_mps2 * dt_s
 
-# A fourth motion is written above, and named here and in the Scene's table.
+# To add a motion, write it above, and name it here and in the Scene's table.
 MOTIONS = {"forward": forward, "backward": backward, "exact": exact}
 
 
 # ==== 3. Colliding: the move ended beyond a wall; where is the car really? ======================
 #
 # The corrections, from the crudest to the best; each can do what the one before it cannot. They
-# get the x and v that the move ended with, the wall that x is beyond, a and CR. Each turns v round
-# and keeps CR of it by itself, as rewind needs the v of before. In what is said of them, overlap
-# is how far x is beyond the wall, off the wall is back towards the track, g is a pull to the wall.
+# take the x and v that the move ended with, the wall that x is beyond, a and CR. Each reverses v
+# itself and keeps CR of it, since rewind needs the v before the bounce. In what they say,
+#     overlap        is how far x is beyond the wall,
+#     off the wall   is back towards the track,
+#     g              is an acceleration that pulls into the wall.
 
 def none(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Leave the car beyond the wall: a trap.
 
-    Slowed by CR < 1 or pulled to the wall, it is perhaps not back on the track one frame later.
-    Then it is found in collision again, and turned round again: deeper into the wall. From there on
-    each way back is shorter than the way in before it. It is stuck, and under a pull it sinks
-    (example 3). Forward Euler may creep out, by the energy that it gains, and where the pull leads
-    off the wall any motion may.
+    Slowed by CR < 1, or pulled into the wall, the car may not be back on the track one frame later.
+    Then v is reversed again, now deeper into the wall. From there on each way back is shorter than
+    the way in before it: the car is stuck, and a pull into the wall makes it sink (example 3).
+    Forward Euler may creep out, by the energy that it gains. Under a pull off the wall it is the
+    other way round: forward sinks, the others may creep out.
     """
     return x_m, -CR * v_mps
 
 def surface(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Put the car on the wall, where it cannot be stuck.
 
-    The part of the frame after the bounce is lost: the car leaves the wall up to dt late. And at
-    CR = 1 it is moved against the pull by overlap, at an unchanged speed: E gains g * overlap.
+    What is left of the frame after the bounce is lost: the car leaves the wall up to dt late. And
+    at CR = 1, at the wall that it is pulled to, it is lifted by overlap at an unchanged speed: E
+    gains g * overlap.
     """
     return wall_m, -CR * v_mps
 
 def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Put the car CR * overlap off the wall: about as far as it has bounced back by now.
 
-    Only about: it bounced at its speed at the wall, not at that of the frame's end. At CR = 1 it is
-    moved against the pull by 2 * overlap, at an unchanged speed: E gains 2 g * overlap, by luck
-    from 0 to 2 g v dt. In each of the 2 v/(g dt) frames of the flight to the next bounce, backward
-    Euler loses g^2 dt^2/2, in all g v dt. The two cancel on average only, and the car wanders about
-    the truth (examples 8 and 16). Exact motion loses nothing, so E grows.
-    Where CR * overlap is longer than the track, it is thrown through the far wall (example 14).
+    Only about: it bounced at its speed at the wall, not at that of the frame's end. At CR = 1, at
+    the wall that it is pulled to, it is lifted by 2 * overlap at an unchanged speed: E gains
+    2 g * overlap, anything from 0 to 2 g v dt, v being the speed at the wall. Backward Euler loses
+    g^2 dt^2/2 in each of the 2 v/(g dt) frames of the flight to the next bounce, g v dt in all. So
+    they cancel on average, and the car wanders about the truth (examples 8 and 16). Exact motion
+    loses nothing, so E grows (example 17). With CR * overlap longer than the track, the car is
+    thrown through the far wall (example 14).
     """
     overlap_m = x_m - wall_m
     return x_m - overlap_m * (1 + CR), -CR * v_mps
@@ -145,37 +149,37 @@ def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -
 def rewind(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Go back to the wall, bounce there, and go forward again for as long as the car was beyond.
 
-    It undoes the exact motion by its own formulas, so it goes with that one only. It is right for
-    a frame that holds one bounce and whose move ends beyond the wall (example 10). It cannot
-    settle a second bounce, on its way forward; and it is not called where a pull off the wall has
-    brought the move back to the track by the frame's end.
+    Both ways go by the formulas of the exact motion, so rewind works with that motion only. It is
+    right for a frame that holds one bounce and whose move ends beyond the wall (example 10). It
+    cannot settle a second bounce. And where the pull has brought the car back to the track by the
+    frame's end, no collision is found: a missed event (example 18).
     """
     overlap_m = x_m - wall_m
     # The velocity s at the wall, from energy: s^2 = v^2 - 2 a overlap. It has overlap's sign.
     s_mps = math.copysign(math.sqrt(max(0.0, v_mps**2 - 2 * a_mps2 * overlap_m)), overlap_m)
     # The time t beyond, from the mean velocity: overlap = (s + v)/2 t. Where the pull has turned
-    # the car back, v is against s and their sum cancels; there t follows from v = s + a t.
+    # the car round, v is opposite to s, and s + v would cancel: there v = s + a t gives t.
     if s_mps * v_mps > 0:
         t_s = 2 * overlap_m / (s_mps + v_mps)
     else:
         t_s = (v_mps - s_mps) / a_mps2 if a_mps2 else 0.0
     x_m, v_mps = exact(wall_m, -CR * s_mps, a_mps2, t_s)
-    is_beyond_again = (x_m - wall_m) * overlap_m > 0  # it needs a second bounce
+    is_beyond_again = (x_m - wall_m) * overlap_m > 0  # there was a second bounce
     return (wall_m if is_beyond_again else x_m), v_mps
 
 CORRECTIONS = {"none": none, "surface": surface, "rebound": rebound, "rewind": rewind}
-EXACT_ONLY = ("rewind", "replay")  # they undo or follow that motion
+EXACT_ONLY = ("rewind", "replay")  # they retrace or follow the exact motion
 
 def step(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> tuple[float, float, float | None]:
     """One frame of dt_s: move the car, settle any collision. Returns x_m, v_mps, mark_m.
 
-    mark_m, None without a collision, is where the move alone ended: the correction hides it.
+    mark_m is where the move alone ended, before the correction; None without a collision.
     """
     free_m, free_mps = MOTIONS[scene.motion](x_m, v_mps, scene.a_mps2, dt_s)
     on_track_m = scene.to_track(free_m)  # the wall, if the move ended beyond one
     is_beyond = on_track_m != free_m
     if scene.correction == "replay":
-        # Back on the track, it can have been beyond a wall only if v changed its sign.
+        # A move that ends on the track was beyond a wall only if v has changed its sign.
         if is_beyond or v_mps * free_mps < 0:
             x_m, v_mps = replay(scene, x_m, v_mps, dt_s)
             return x_m, v_mps, None if (x_m, v_mps) == (free_m, free_mps) else free_m
@@ -185,18 +189,18 @@ def step(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> tuple[float, fl
     return free_m, free_mps, None
 
 def replay(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> State:
-    """Look at the frame again, from its start, and follow the exact motion from wall to wall.
+    """Follow the exact motion from the frame's start, from wall to wall.
 
-    No correction of the move, then, but right for frames of any length, with several bounces
-    (example 15) or infinitely many (example 12). The loop ends: after the first flight each one
-    crosses the whole track, at a limited speed, or begins hops, which are taken all at once.
+    It replaces the move, and is right for frames of any length, with several bounces (example 15)
+    or infinitely many (example 12). The loop ends: after the first flight, each one crosses the
+    whole track at a limited speed, or hops begin, which are taken all at once.
     """
     x_m, a_mps2, CR = scene.to_track(x_m), scene.a_mps2, scene.CR
     left_m, right_m = scene.left_edge_m, scene.right_edge_m
     graze_m = 1e-12 * (abs(left_m) + abs(right_m))
     t_s = dt_s  # what is left of the frame
     while True:
-        # Which wall is next? Towards the left one, distance, speed and pull change their sign.
+        # Which wall is next? For arrival, what leads towards the wall is positive.
         to_left = (*arrival(x_m - left_m, -v_mps, -a_mps2, graze_m), -1, left_m)
         to_right = (*arrival(right_m - x_m, v_mps, a_mps2, graze_m), 1, right_m)
         flight_s, s_mps, side, wall_m = min(to_left, to_right)  # the sooner one
@@ -205,12 +209,12 @@ def replay(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> State:
         # Go there, and bounce.
         t_s -= flight_s
         x_m, v_mps, g_mps2 = wall_m, -side * CR * s_mps, side * a_mps2
-        # v^2/(2 g) <= track: too slow for the other wall, against the pull g back to this one.
+        # v^2/(2 g) <= track: too slow for the far wall, against the pull g back to this one.
         if g_mps2 > 0 and v_mps * v_mps <= 2 * g_mps2 * (right_m - left_m + graze_m):
             t_s, v_mps = hops(v_mps, g_mps2, CR, t_s)
             break
     x_m, v_mps = exact(x_m, v_mps, a_mps2, t_s)
-    return scene.to_track(x_m), v_mps  # round-off must not end beyond a wall
+    return scene.to_track(x_m), v_mps  # round-off must not leave it beyond a wall
 
 def arrival(d_m: float, u_mps: float, g_mps2: float, graze_m: float) -> tuple[float, float]:
     """When, and how fast, does the car reach a wall d_m ahead? (t_s, s_mps); never: (inf, 0).
@@ -222,9 +226,8 @@ def arrival(d_m: float, u_mps: float, g_mps2: float, graze_m: float) -> tuple[fl
     # The speed at the wall, from energy: s^2 = u^2 + 2 g d.
     s_squared = u_mps * u_mps + 2 * g_mps2 * d_m
     # If g < 0, the car turns s^2/(-2 g) past the wall; short of it, if s^2 < 0. Up to graze_m past
-    # it, a hit counts as a miss. So grazes stay on time: as a hit, an error of 1e-16 in s^2 would
-    # become one of 1e-8 in s. The price: where the car does hit so slightly, it is off by up to
-    # 4 sqrt(d graze_m), 9e-6 m on the default track.
+    # it, a hit counts as a miss. So grazes stay on time: as hits, their error of 1e-16 in s^2 would
+    # be one of 1e-8 in s. A true hit costs up to 4 sqrt(d graze_m), 9e-6 m on the default track.
     if s_squared < -2 * g_mps2 * graze_m:
         return math.inf, 0.0
     s_mps = math.sqrt(s_squared)
@@ -235,12 +238,12 @@ def hops(v_mps: float, g_mps2: float, CR: float, t_s: float) -> tuple[float, flo
     """Take all whole hops that fit into t_s at once. Returns the time left, and v off the wall.
 
     Under a pull g the car hops for h = 2 v/g, then for CR h, CR^2 h, and so on. n hops last
-    h (1 + CR + ... + CR^(n-1)) = h (1 - CR^n)/(1 - CR), infinitely many h/(1 - CR): that is the
-    Zeno point, from where on the car is at rest. So a frame costs the same with three hops and
-    with a million, and ends even where they are infinitely many.
+    h (1 + CR + ... + CR^(n-1)) = h (1 - CR^n)/(1 - CR), infinitely many h/(1 - CR). That moment is
+    the Zeno point: then the car is at rest. So a frame costs the same with three hops and with a
+    million, and it ends even where they are infinitely many.
     """
     h_s = 2 * abs(v_mps) / g_mps2
-    if h_s <= t_s * (1 - CR) or t_s + h_s == t_s:  # or a hop is lost in the rounding of t_s
+    if h_s <= t_s * (1 - CR) or t_s + h_s == t_s:  # or a hop vanishes in the rounding of t_s
         return 0.0, 0.0
     if CR == 1:
         return math.fmod(t_s, h_s), v_mps
@@ -261,7 +264,7 @@ def paint(line: bytearray, mark: str, x_px: float) -> None:
 
 def render_track(scene: Scene, x_m: float, mark_m: float | None = None,
                  exact_m: float | None = None) -> str:
-    """scene.width_px characters, painted from back to front; < or >: the car is off the picture."""
+    """The picture: scene.width_px characters, painted from back to front."""
     line, zoom = bytearray(b" " * scene.width_px), scene.m_to_px
     if scene.show_collision_mark and mark_m is not None:
         paint(line, "0", mark_m * zoom)
@@ -272,12 +275,12 @@ def render_track(scene: Scene, x_m: float, mark_m: float | None = None,
     paint(line, "|", scene.left_edge_m * zoom)
     paint(line, "|", scene.right_edge_m * zoom)
     column, last = round(x_m * zoom), scene.width_px - 1
-    mark = "<" if column < 0 else ">" if column > last else "*"
-    paint(line, mark, min(max(column, 0), last))
+    mark = "<" if column < 0 else ">" if column > last else "*"  # < and >: outside the picture
+    paint(line, mark, min(max(column, 0), last))  # last, so that it is seen even on a wall
     return line.decode()
 
 def details_text(x_m: float, v_mps: float, fps: float, exact_m: float | None) -> str:
-    """What d adds to a line: position, velocity, frame rate, and the error beside exact_m."""
+    """What d adds to a line: position, velocity, frame rate and, given exact_m, the error."""
     text = f"x = {x_m:6.2f}, v = {v_mps:5.2f}, FPS = {fps:3.0f}"
     return text if exact_m is None else f"{text}, err = {x_m - exact_m:9.2e}"
 
@@ -287,14 +290,15 @@ def details_text(x_m: float, v_mps: float, fps: float, exact_m: float | None) ->
 def planned(scene: Scene) -> Iterator[tuple[float, float]]:
     """Yield how long each frame should last, the same in every run, and the rate in FPS."""
     fps, jitter = scene.fps_target, scene.jitter
-    for frame in count(1):  # 0.618, the golden ratio, spreads the lengths evenly
+    for frame in count(1):  # 0.618, the golden ratio's fraction, spreads the lengths evenly
         yield (1 + jitter * (2 * (0.618 * frame % 1) - 1)) / fps, fps
 
 def paced(scene: Scene, keys: Keys) -> Iterator[tuple[float, float]]:
     """At the end of each frame yield how long it lasted, and its rate; until a key ends the run.
 
-    The deadlines are absolute. A sleep of dt after each frame would add to it the time that it
-    takes to compute and to print, and what sleep oversleeps.
+    A generator, as planned is, so that one loop serves both; what follows the yield runs when the
+    frame has been drawn. The deadlines are absolute: a sleep of dt after each frame would add to it
+    what computing, printing and oversleeping take.
     """
     began_s = deadline_s = time.perf_counter() - 1 / scene.fps_target  # the first is due at once
     for due_s, _ in planned(scene):
@@ -305,23 +309,32 @@ def paced(scene: Scene, keys: Keys) -> Iterator[tuple[float, float]]:
         now_s = time.perf_counter()
         length_s = due_s if was_paused else now_s - began_s
         began_s = now_s
-        # Long enough to be seen, and half as long again as due: a stall (a dragged window). Say 0.
+        # Visibly long, and 1.5 times as long as due: a stall (a dragged window). Yield 0 for it.
         is_stall = length_s > max(0.15, 1.5 * due_s)
         yield 0.0 if is_stall else length_s, 1 / length_s
-        if now_s > deadline_s + due_s:  # missed by a frame: no burst to make it up
+        if now_s > deadline_s + due_s:  # late by a whole frame: do not race to catch up
             deadline_s = now_s
 
 def truth_of(scene: Scene) -> Scene:
     """The scene by the exact solution, which has to start on the track."""
     return replace(scene, motion="exact", correction="replay", x_m=scene.to_track(scene.x_m))
 
+def is_at_rest(scene: Scene, recent_m: deque[float]) -> bool:
+    """Whether the car stays at the wall that it is pulled to, or without a pull at either."""
+    mean_m = sum(recent_m) / len(recent_m)
+    is_left = scene.a_mps2 <= 0 and abs(mean_m - scene.left_edge_m) <= 0.001
+    is_right = scene.a_mps2 >= 0 and abs(mean_m - scene.right_edge_m) <= 0.001
+    return len(recent_m) == recent_m.maxlen and (is_left or is_right)
+
 def run(scene: Scene, details: bool, limit: int, keys: Keys | None,
         coloured: Callable[[str], str]) -> None:
     """Film the scene until a key, the car at rest or the limit ends it, and say which it was."""
-    x_m, v_mps, truth = scene.x_m, scene.v_mps, truth_of(scene)
+    truth = truth_of(scene)
+    x_m, v_mps = scene.x_m, scene.v_mps
     exact_m, exact_mps = (truth.x_m if scene.show_exact_mark else None), truth.v_mps
-    recent_m = deque[float](maxlen=max(10, round(scene.fps_target / 3)))  # 1/3 s, or 10
-    frame, t_s, why = 0, 0.0, "that is the frame limit"
+    recent_m = deque[float](maxlen=max(10, round(scene.fps_target / 3)))  # 1/3 s, or 10 frames
+    frame, t_s = 0, 0.0
+    why = "that is the frame limit"
     beats = paced(scene, keys) if keys else planned(scene)
     for frame, (length_s, fps) in enumerate(islice(beats, limit), start=1):
         # Move and settle; after a stall hold still.
@@ -337,14 +350,10 @@ def run(scene: Scene, details: bool, limit: int, keys: Keys | None,
         text = details_text(x_m, v_mps, fps, exact_m) if details else ""
         sys.stdout.write(f"{line}{text}\n")
         if keys:
-            keys.frame, keys.t_s = frame, t_s
-            sys.stdout.flush()
-        # At rest? On average at the wall that the car is pulled to; without a pull, at either.
+            keys.shown(frame, t_s)
+        # At rest?
         recent_m.append(x_m)
-        mean_m = sum(recent_m) / len(recent_m)
-        is_left = scene.a_mps2 <= 0 and abs(mean_m - scene.left_edge_m) <= 0.001
-        is_right = scene.a_mps2 >= 0 and abs(mean_m - scene.right_edge_m) <= 0.001
-        if scene.auto_off and len(recent_m) == recent_m.maxlen and (is_left or is_right):
+        if scene.auto_off and is_at_rest(scene, recent_m):
             why = "the car is at rest against a wall"
             break
     why = (keys.why_quit if keys else "") or why
@@ -365,7 +374,7 @@ COLOURED = {
 }
 
 def inked(line: str) -> str:
-    """The line with its marks in colours; as it is, where they are not wanted."""
+    """The line with its marks in colours, or as it is where nobody wants colours."""
     if os.environ.get("NO_COLOR") or os.environ.get("TERM", "dumb") == "dumb":
         return line
     if not sys.stdout.isatty():
@@ -373,15 +382,16 @@ def inked(line: str) -> str:
     return line.translate(COLOURED)
 
 def say(text: str, indent: int = 0) -> None:
-    """Print a paragraph as wide as the terminal, or as is good to read."""
+    """Print a paragraph, as wide as the terminal but no wider than is good to read."""
     width = min(100, shutil.get_terminal_size().columns)
     print(textwrap.fill(text, width, subsequent_indent=" " * indent), flush=True)
 
 
 # ==== 7. Speed against accuracy: the chart ======================================================
 
-SPAN_S, CUTS = 20, 9  # what chart and map simulate, and in how many ways they cut it into frames
-CHART_FPS = (10, 30, 60, 120, 240, 480, 960, 1920, 3840)  # multiples of 10, as simulate needs
+SPAN_S = 20  # what chart and map simulate,
+CUTS = 9     # and in how many ways they cut it into frames
+CHART_FPS = (10, 30, 60, 120, 240, 480, 960, 1920, 3840)  # multiples of 10, for simulate
 SERIES = {"s": ("backward", "surface"), "b": ("backward", "rebound"), "r": ("exact", "rebound"),
           "w": ("exact", "rewind"), "e": ("exact", "replay")}
 TABLE_HEAD = """
@@ -389,14 +399,13 @@ TABLE_HEAD = """
           + surface      + rebound      + rebound       + rewind       + replay
  FPS  error m    us  error m    us  error m    us  error m    us  error m    us"""
 Points = dict[str, list[tuple[float, float]]]  # letter: (error_m, cost_us) at each rate
-
-step_once = cache(step)  # every method and every cut asks for the truth at the same moments
+step_once = cache(step)  # all methods and cuts need the truth at the same moments
 
 def simulate(scene: Scene, fps: int, cut: int) -> Iterator[tuple[State, State]]:
-    """Run for SPAN_S. Yield the car's state and the true one every 0.1 s, or each longer frame.
+    """Run for SPAN_S; yield the car's state and the true one, every 0.1 s or each longer frame.
 
-    Where in a frame the car meets a wall is luck. So a run begins cut/9 of a frame late, where the
-    car then truly is.
+    Where in a frame the car meets a wall is luck. So a cut begins its first frame cut/9 of a frame
+    late, at the true state of that moment.
     """
     truth = truth_of(scene)
     late_s = cut / CUTS / fps
@@ -414,14 +423,14 @@ def cost_us(scene: Scene, fps: int) -> float:
         "x_m, v_mps, _ = step(scene, x_m, v_mps, dt_s)", "x_m, v_mps = scene.x_m, scene.v_mps",
         number=SPAN_S * fps, repeat=max(5, 200 // fps), timer=time.process_time,
         globals={"step": step, "scene": scene, "dt_s": 1 / fps})
-    return max(1e6 * min(costs_s) / SPAN_S, 0.01)  # 0 where the clock is coarse
+    return max(1e6 * min(costs_s) / SPAN_S, 0.01)  # a coarse clock may have measured 0
 
 def two_digits(us: float) -> str:
-    """As many as a measured cost is good for, and no exponent."""
+    """The cost without an exponent; more digits would be noise."""
     return f"{float(f'{us:.1e}'):g}"
 
 def first_within(series: list[tuple[float, float]], pixel_m: float) -> str:
-    """From which rate on a series stays within a pixel, and at what cost."""
+    """The lowest rate from which on a series stays within a pixel, and its cost."""
     for index, fps in enumerate(CHART_FPS):
         if max(error_m for error_m, _ in series[index:]) <= pixel_m:
             return f"{fps:5} FPS{two_digits(series[index][1]):>6}"
@@ -447,11 +456,11 @@ def table(scene: Scene) -> Points:
     return points
 
 def error_px(error_m: float) -> int:
-    """Its column: eight a power of ten from 1e-6 to 10 m, what is smaller or larger at the edge."""
+    """Its column: eight to a power of ten, from 1e-6 to 10 m; beyond them, the picture's edge."""
     return round(8 * math.log10(min(max(error_m, 1e-6), 10) / 1e-6))
 
 def picture(points: Points, pixel_m: float) -> None:
-    """Print the points as a film: processor time runs downwards, four rows a power of ten."""
+    """Print the points as a film: processor time runs downwards, four rows to a power of ten."""
     marks = [(round(4 * math.log10(us)), error_px(error_m), letter)
              for letter, series in points.items() for error_m, us in series]
     limit_px = error_px(pixel_m)
@@ -471,7 +480,7 @@ def picture(points: Points, pixel_m: float) -> None:
         print(f"{two_digits(10 ** (row / 4)):>6}    {inked(line.decode().rstrip())}")
 
 def new_figure(file: str) -> Any:
-    """An empty picture by matplotlib. Raises BadInput where there can be none."""
+    """An empty matplotlib figure. Raises BadInput for a wrong suffix or without matplotlib."""
     if not file.endswith((".png", ".svg", ".pdf")):
         raise BadInput(f"--save FILE must end in .png, .svg or .pdf, not {file!r}")
     try:
@@ -481,7 +490,7 @@ def new_figure(file: str) -> Any:
         raise BadInput(f"--save needs matplotlib, pip install '.[chart]': {fault!r}") from fault
 
 def save(figure: Any, file: str, points: Points, pixel_m: float, heading: str) -> None:
-    """Draw the points with matplotlib as well. Raises BadInput where that is refused."""
+    """Draw the points with matplotlib as well. Raises BadInput where it cannot save them."""
     figure.suptitle(f"Speed against accuracy\n{textwrap.fill(heading, 84)}")
     axes = figure.add_subplot(
         xscale="log", yscale="log", xlabel=f"largest error in {SPAN_S} s (m): better to the left",
@@ -495,13 +504,13 @@ def save(figure: Any, file: str, points: Points, pixel_m: float, heading: str) -
                   f"{CHART_FPS[0]} FPS, at the top, and ends at {CHART_FPS[-1]} FPS")
     try:
         figure.savefig(file)
-    except Exception as fault:  # whatever matplotlib or the disk refuse
+    except Exception as fault:  # whatever matplotlib or the disk refuses
         raise BadInput(f"--save {file!r}: {fault}") from fault
     print(f"\nSaved as {file!a}.")
 
 def chart(scene: Scene, heading: str, file: str | None) -> None:
     """Print the table and the picture; with a file, save the picture as well."""
-    figure = None if file is None else new_figure(file)  # some refusals come before the measuring
+    figure = None if file is None else new_figure(file)  # what it refuses, before the measuring
     say(f"Speed against accuracy. {heading}")
     points = table(scene)
     picture(points, 1 / scene.m_to_px)
@@ -523,32 +532,32 @@ VERDICTS = {  # from the worst to the best
 }
 
 def verdict(scene: Scene, fps: int, cut: int) -> str:
-    """The letter for one run, the first that fits. (W is for several runs.)"""
+    """The first letter that fits one run. (W takes several.)"""
     states = list(simulate(scene, fps, cut))
+    late = states[len(states) * 3 // 4:]  # the last 5 s of 20
     beyond_m = [x_m - scene.to_track(x_m) for (x_m, _), _ in states]
     track_m = scene.right_edge_m - scene.left_edge_m
     if max(map(abs, beyond_m)) > track_m:
         return "X"
-    last = slice(-len(states) // 4, None)  # 5 s of 20
-    if min(beyond_m[last]) > 0 or max(beyond_m[last]) < 0:
+    if min(beyond_m[-len(late):]) > 0 or max(beyond_m[-len(late):]) < 0:
         return "S"
     if max(abs(x_m - true_m) for (x_m, _), (true_m, _) in states) <= 1 / scene.m_to_px:
         return "-"
     # E = v^2/2 - a x, as in section 2. The limit is 1 % of what the scene has of it.
-    gain = fmean((v_mps**2 - true_mps**2) / 2 - scene.a_mps2 * (x_m - true_m)
-                 for (x_m, v_mps), (true_m, true_mps) in states[last])
+    gain = sum((v_mps**2 - true_mps**2) / 2 - scene.a_mps2 * (x_m - true_m)
+               for (x_m, v_mps), (true_m, true_mps) in late) / len(late)
     limit = 0.01 * (scene.v_mps**2 / 2 + abs(scene.a_mps2) * track_m)
     return "G" if gain > limit else "L" if gain < -limit else "P"
 
 def cell(found: set[str]) -> str:
-    """One letter for the verdicts of the nine cuts: the worst, small if only some deserve it."""
+    """One letter for nine verdicts: the worst, as a small letter where only some deserve it."""
     worst = min(found, key=list(VERDICTS).index)
     if worst == "G" and "L" in found:
         return "W"
     return worst if len(found) == 1 else worst.lower()
 
 def stability(scene: Scene, heading: str) -> None:
-    """Print the map: a row a method, a column a rate, a letter for the nine cuts."""
+    """Print the map: a row for each method, a column for each rate, a letter for the nine cuts."""
     rates = f"{'FPS':20}" + "".join(f"{fps:6}" for fps in MAP_FPS)
     say(f"Stability. {heading}")
     print(f"\n{rates}")
@@ -572,39 +581,42 @@ def stability(scene: Scene, heading: str) -> None:
 # ==== 9. Checking a scene =======================================================================
 
 class BadInput(ValueError):
-    """What a user asked for and cannot have, said in one sentence."""
+    """One sentence on what a user asked for and cannot have."""
 
 def is_number(row: Field[Any]) -> bool:
-    """Whether a setting is a number in a range, rather than one of a few values."""
+    """Whether a setting is a number in a range, and not one of a few values."""
     return not isinstance(row.default, (bool, str))
 
 def allowed_text(row: Field[Any]) -> str:
     """What a setting may be, in words."""
     allowed, unit = row.metadata["allowed"], row.metadata["unit"]
     if is_number(row):
-        kind = "a whole number" if isinstance(row.default, int) else "a number"
-        return f"{kind} from {allowed[0]} to {allowed[1]} {unit}".rstrip()
+        return f"from {allowed[0]} to {allowed[1]} {unit}".rstrip()
     return " or ".join(", ".join(map(str, allowed)).rsplit(", ", 1))
 
 def check(scene: Scene) -> None:
-    """Raise BadInput, with setting, value and range, for a scene that cannot be."""
+    """Raise BadInput, naming setting, range and value, for a scene that is not allowed."""
     for row in fields(scene):
         value, allowed = getattr(scene, row.name), row.metadata["allowed"]
         if is_number(row):
-            kinds = int if isinstance(row.default, int) else (int, float)
-            is_good = isinstance(value, kinds) and allowed[0] <= value <= allowed[1]
+            types = int if isinstance(row.default, int) else (int, float)
+            noun = "a whole number " if types is int else "a number "
+            is_good = isinstance(value, types) and allowed[0] <= value <= allowed[1]
         else:
+            noun = ""
             is_good = value in allowed
         if not is_good:
-            raise BadInput(f"{row.name} must be {allowed_text(row)}, not {value!r}")
-    left_m, right_m, x_m, kind = scene.left_edge_m, scene.right_edge_m, scene.x_m, scene.correction
+            raise BadInput(f"{row.name} must be {noun}{allowed_text(row)}, not {value!r}")
+    left_m, right_m = scene.left_edge_m, scene.right_edge_m
     if round(right_m - left_m, 9) < 0.01:  # 2.21 - 2.2 is a bit less
         raise BadInput(f"right_edge_m must be left_edge_m + 0.01 or more, not {right_m}")
-    if kind in EXACT_ONLY and scene.motion != "exact":
-        raise BadInput(f"motion must be exact with correction={kind}, not {scene.motion}: "
-                       "set motion=exact, or another correction too")
-    if kind in EXACT_ONLY and not left_m <= x_m <= right_m:
-        raise BadInput(f"x_m must be from {left_m} to {right_m} with correction={kind}, not {x_m}")
+    if scene.correction in EXACT_ONLY:
+        with_it = f"with correction={scene.correction}"
+        if scene.motion != "exact":
+            raise BadInput(f"motion must be exact {with_it}, not {scene.motion}: set motion=exact, "
+                           "or another correction too")
+        if scene.x_m != scene.to_track(scene.x_m):
+            raise BadInput(f"x_m must be from {left_m} to {right_m} {with_it}, not {scene.x_m}")
 
 
 # ==== 10. The command line ======================================================================
@@ -614,7 +626,7 @@ COMMANDS = ("chart", "stability")
 OPTIONS = {"d": "the film", "--fast": "the film", "--frames": "the film", "--save": "chart"}
 
 def in_words(scene: Scene) -> str:
-    """How the car starts."""
+    """How the car starts, in words."""
     side = ("to the left", "to the right")
     speed, pull = "at rest", "not pulled"
     if scene.v_mps:
@@ -624,7 +636,7 @@ def in_words(scene: Scene) -> str:
     return f"The car starts at x = {scene.x_m:g} m, {speed}, {pull}; CR = {scene.CR:g}."
 
 def method_in_words(scene: Scene) -> str:
-    """How it is moved and settled, how often, and what else is not as by default."""
+    """How the car is moved and settled, how often, and which other settings are not the default."""
     told = ("x_m", "v_mps", "a_mps2", "CR", "motion", "correction", "fps_target")
     others = "".join(f", {row.name}={getattr(scene, row.name)}" for row in fields(scene)
                      if row.name not in told and getattr(scene, row.name) != row.default)
@@ -646,7 +658,7 @@ def fitted(scene: Scene, details: bool) -> Scene:
     return replace(scene, width_px=columns, m_to_px=m_to_px)
 
 def tell_of_walls(scene: Scene) -> None:
-    """Say which wall is outside the picture, and what would show both."""
+    """Say that a wall is outside the picture, and what would show both."""
     if round(scene.left_edge_m * scene.m_to_px) < 0:
         say("A wall is to the left of x = 0, where the picture begins: shift the scene to see it.")
     elif round(scene.right_edge_m * scene.m_to_px) >= scene.width_px:
@@ -654,7 +666,7 @@ def tell_of_walls(scene: Scene) -> None:
         say(f"The picture ends before a wall: m_to_px={enough:g} would show both.")
 
 def film(scene: Scene, number: int, title: str, options: dict[str, str]) -> int:
-    """Say what is to be seen and which keys there are, leave time to read it, and run."""
+    """Print the header, leave time to read it, and run."""
     example = EXAMPLES.get(number, OWN_SCENE)
     details = "d" in options or example.details
     limit = value_of(int, options.get("--frames", "50000"))
@@ -683,20 +695,20 @@ def manual() -> int:
     print(f"{__doc__}\nExamples; any other whole number is for a scene of your own")
     for number, example in EXAMPLES.items():
         print(f"  {number:2}  {example.title}")
-    print("\nSettings: default, meaning, what is allowed")
+    print("\nSettings: default, meaning (what is allowed)")
     for row in fields(Scene):
-        say(f"  {row.name:20}{row.default!s:9}{row.metadata['meaning']}: {allowed_text(row)}", 31)
+        say(f"  {row.name:20}{row.default!s:9}{row.metadata['meaning']} ({allowed_text(row)})", 31)
     return 0
 
 def value_of(kind: Callable[[str], object], text: str) -> object:
-    """The value of this kind that a text stands for; the text itself where it is none."""
+    """The text as a value of this kind, or the text itself where it cannot be one."""
     try:
         return {"True": True, "False": False}[text.capitalize()] if kind is bool else kind(text)
     except (KeyError, ValueError):
         return text
 
 def refusal(word: str) -> BadInput:
-    """The error for an unknown word, with the name most like it."""
+    """The error for an unknown word, with the nearest name."""
     names = {name.lower(): name for name in ("--help", *COMMANDS, *OPTIONS)}
     names |= {name.lower(): f"{name}=VALUE" for name in SETTINGS}
     start = word.partition("=")[0].lower()
@@ -706,8 +718,8 @@ def refusal(word: str) -> BadInput:
     return BadInput(f"unknown word {word!r}: it must be an EXAMPLE (whole number), a command, an "
                     f"option or NAME=VALUE; {hint}")
 
-def taken_apart(words: list[str]) -> tuple[dict[str, str], dict[str, Any]]:
-    """What is given, EXAMPLE, command and options, and the changed settings."""
+def parsed(words: list[str]) -> tuple[dict[str, str], dict[str, Any]]:
+    """What the words give: EXAMPLE, command and options; and the settings that they change."""
     given, changes, rest = {}, {}, iter(words)
     for word in rest:
         name, equals, text = word.partition("=")
@@ -727,10 +739,10 @@ def taken_apart(words: list[str]) -> tuple[dict[str, str], dict[str, Any]]:
     return given, changes
 
 def obey(words: list[str]) -> int:
-    """Do what the words ask for. Returns the exit status."""
+    """Do what the words ask for. Returns the exit status; raises BadInput."""
     if "-h" in words or "--help" in words:
         return manual()
-    given, changes = taken_apart(words)
+    given, changes = parsed(words)
     command = given.pop("command", "the film")
     number = int(given.pop("EXAMPLE", 10 if command in COMMANDS else 0))
     for option in given:
@@ -753,7 +765,7 @@ def obey(words: list[str]) -> int:
     return 0
 
 def main(argv: list[str] | None = None) -> int:
-    """Carry out a command line, sys.argv's by default. Returns the exit status, 2 for an error."""
+    """Run a command line, sys.argv's by default. Returns the exit status, 2 for an error."""
     try:
         status = obey(sys.argv[1:] if argv is None else argv)
         sys.stdout.flush()

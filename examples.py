@@ -119,7 +119,7 @@ EXAMPLES = {
         "CR": 0.8, "correction": "replay"},
         "Example 11, but the car keeps 80 % of its speed at each bounce. The bounces come faster "
         "and faster: infinitely many before t = 11.91 s, the Zeno point. Then the car is at rest. "
-        "A frame may hold many bounces, the last one infinitely many, and that takes replay. From "
+        "A frame may hold many bounces, and one holds infinitely many: that takes replay. From "
         "frame 110 of 122 on they are lower than a column: the car stands at the wall. Compare "
         "python airtrack.py 12 d correction=rewind: there it hops on for eight frames more."),
     13: Example("Forward Euler gains energy", {
@@ -193,12 +193,12 @@ if sys.platform == "win32":
         give_back = take
 
 else:
-    # What a terminal sends that is no character: Esc and a character for Alt, Esc O ... for F1,
-    # Esc [ ... for an arrow or a mouse report, Esc P or ] ... for a reply (as in ECMA-48; [[ and
-    # [M... are older). Only an Esc that nothing follows is the Esc key.
+    # What a terminal sends that is no character (ECMA-48): Esc and a character for Alt, Esc O ...
+    # for F1, Esc [ ... for an arrow or a mouse report, Esc P or ] ... for a late reply. (Esc [[ and
+    # Esc [M are older forms.) Only an Esc that nothing follows is the Esc key.
     SEQUENCE = re.compile(
         rb"\x1b+(\[M...|(O|\[(?!M)\[?)[0-?]*[ -/]*[@-~]|[]P].*?(\a|\x1b\\)|[^][OP\x1b])", re.DOTALL)
-    CUT_OFF = re.compile(rb"\x1b+[^\x1b]+")
+    UNFINISHED = re.compile(rb"\x1b+[^\x1b]+")
 
     class Terminal:
         """The keys of a terminal, one by one, unechoed. It is touched from the foreground only."""
@@ -214,7 +214,7 @@ else:
                 return False
 
         def take(self) -> None:
-            """Keys without Enter and echo, Ctrl-S too; at each look anew, as after fg."""
+            """Get keys without Enter and echo, and Ctrl-S too; again at each look, as after fg."""
             self.is_raw = self.is_in_foreground()
             with contextlib.suppress(termios.error):  # it may have gone just now
                 if self.is_raw:
@@ -234,12 +234,12 @@ else:
             """The keys pressed since the last call, as characters."""
             self.take()
             keys = SEQUENCE.sub(b"", self.piece(0.0))
-            while b"\x1b" in keys and (rest := self.piece(0.05)):  # the rest follows at once
+            while b"\x1b" in keys and (rest := self.piece(0.05)):  # of a sequence, or other keys
                 keys = SEQUENCE.sub(b"", keys + rest)
-            return CUT_OFF.sub(b"", keys).decode("ascii", "ignore")
+            return UNFINISHED.sub(b"", keys).decode("ascii", "ignore")
 
         def piece(self, wait_s: float) -> bytes:
-            """What the terminal has to read, now or within wait_s; b"" if nothing."""
+            """What there is to read, now or within wait_s; b"" if nothing comes."""
             with contextlib.suppress(OSError):  # not open for reading, or gone
                 if self.is_raw and select.select([0], [], [], wait_s)[0]:
                     return os.read(0, 1024)
@@ -251,13 +251,13 @@ else:
 WINDOW_CLOSED = "closed"
 
 class Window:
-    """The little pygame window. Without pygame or a display it stays shut, for why_shut."""
+    """The little pygame window. Without pygame or a display it stays shut; why_shut says why."""
 
     why_shut = "it was not opened"
     pygame: Any
 
     def open(self) -> None:
-        """Open the window, or set why_shut. Pygame's sound is left shut: it might print errors."""
+        """Open the window, or set why_shut. Pygame's sound stays off: it might print errors."""
         os.environ["SDL_NO_SIGNAL_HANDLERS"] = "1"  # SDL would set one for SIGINT
         if sys.platform == "linux" and "WAYLAND_DISPLAY" not in os.environ:
             if "DISPLAY" not in os.environ:
@@ -285,9 +285,9 @@ class Window:
                 f"pygame does not work ({type(fault).__name__})")
 
     def show(self, is_paused: bool) -> None:
-        """Say on the window's face and in its caption which keys do what now."""
+        """Say on the window's face and in its caption what the keys do now."""
         if not self.why_shut:
-            state, p_does = ("PAUSED", "go on") if is_paused else ("running", "pause")
+            state, p_does = ("PAUSED", "resume") if is_paused else ("running", "pause")
             words = f"{state}   p: {p_does}   s: step   x: quit"
             self.pygame.display.set_caption(" ".join(words.split()))
             surface = self.pygame.display.get_surface()
@@ -325,27 +325,23 @@ class Window:
 QUIT_KEYS = {"x": "x was pressed", "\x1b": "Esc was pressed",
              WINDOW_CLOSED: "the window was closed"}
 CTRL_C, CTRL_S = "\x03", "\x13"
-SLICE_S = 0.05  # how long a key or a signal waits for an answer, at the most
+SLICE_S = 0.05  # how long a key or a signal waits for an answer, at most
 SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP", "SIGQUIT", "SIGTSTP")  # Windows has only the first two
 
 class Keys:
-    """The keys of a run, and its signals, which are keys too.
-
-    why_quit: why the run is to end; empty until then. status: the exit status then. frame and t_s:
-    how far the film is, as the run tells it.
-    """
+    """The keys of a run, and its signals, which are keys too."""
 
     def __init__(self) -> None:
-        self.why_quit, self.status = "", 0
-        self.frame, self.t_s = 0, 0.0
+        self.why_quit, self.status = "", 0  # why the run is to end, and its exit status then
+        self.frame, self.t_s = 0, 0.0  # how far the film is
         self.is_paused, self.steps = False, 0  # steps: frames to show although it is paused
         self.is_reading = True  # the header, which Ctrl-C cuts short
         self.is_suspending = False  # Ctrl-Z was pressed
-        self.notice = ""  # that the run is paused, once it is said
+        self.notice = ""  # that the run is paused, while it stands on the screen
         self.terminal, self.window = Terminal(), Window()
 
     def note(self, number: int, _: object) -> None:
-        """A signal: only note it, for the next look, so that nothing raises in mid-action."""
+        """Only note a signal, for the next look, so that nothing raises in mid-action."""
         name = signal.Signals(number).name
         if name == "SIGINT":
             self.press(CTRL_C)
@@ -366,11 +362,11 @@ class Keys:
             yield f"No window for the keys: {self.window.why_shut}."
         if where:
             yield f"Keys, {where}: p or Ctrl-S pauses, s steps one frame further, x or Esc quits."
-        hint = "p holds this text, Ctrl-C begins it" if where else "Ctrl-C begins it, then quits"
-        yield f"The film begins in {pause_s:g} s; {hint}."
+        hint = "p to hold this text, Ctrl-C to begin" if where else "Ctrl-C to begin, then to quit"
+        yield f"The film begins in {pause_s:g} s; press {hint}."
 
     def look(self) -> None:
-        """Act on the keys that came since the last look."""
+        """Act on the keys pressed since the last look."""
         if self.is_suspending:
             self.suspend()
         for key in [*self.terminal.read(), *self.window.read()]:
@@ -393,7 +389,7 @@ class Keys:
             self.window.show(self.is_paused)
 
     def quit(self, why: str, status: int = 0) -> None:
-        """End the run, for the first reason that came."""
+        """End the run. The first reason counts."""
         if not self.why_quit:
             self.why_quit, self.status = why, status
 
@@ -405,8 +401,14 @@ class Keys:
         signal.signal(signal.SIGTSTP, self.note)
         self.is_suspending, self.notice = False, ""
 
+    def shown(self, frame: int, t_s: float) -> None:
+        """Send the frame out at once; note how far the film is, and that a step is taken."""
+        sys.stdout.flush()
+        self.frame, self.t_s = frame, t_s
+        self.steps = max(0, self.steps - 1)
+
     def leave_time(self, pause_s: float) -> None:
-        """Leave time to read the header; where Ctrl-C cuts it short, a diamond says so."""
+        """Leave time to read the header. If Ctrl-C cuts it short, a diamond says so."""
         if self.is_reading:
             self.wait_until(time.perf_counter() + pause_s)
         if not self.is_reading:
@@ -414,7 +416,7 @@ class Keys:
         self.is_reading = False
 
     def wait_until(self, moment_s: float) -> bool:
-        """Sleep until then, by time.perf_counter, and while paused. Whether a pause held it."""
+        """Sleep until moment_s of time.perf_counter, and while paused. Returns if it was paused."""
         was_reading, was_held = self.is_reading, False
         while True:
             self.look()
@@ -426,15 +428,13 @@ class Keys:
                 break
             if is_held and not self.notice:
                 self.tell(f"paused after frame {self.frame}, t = {self.t_s:.2f} s: "
-                          "p goes on, s steps, x quits")
+                          "p resumes, s steps, x quits")
             time.sleep(SLICE_S if is_held else min(SLICE_S, left_s))
         self.tell("")
-        if not was_reading:
-            self.steps = max(0, self.steps - 1)
         return was_held
 
     def tell(self, notice: str) -> None:
-        """Say that the run is paused; on a terminal only until it goes on: the film stays whole."""
+        """Say that the run is paused; on a terminal only until it resumes: the film stays whole."""
         is_terminal = sys.stdout.isatty()
         if is_terminal and self.notice:
             print("\r" + " " * len(self.notice) + "\r", end="", flush=True)
@@ -445,18 +445,19 @@ class Keys:
         self.notice = notice
 
 def redirect(stack: contextlib.ExitStack, handler: Any, *names: str) -> None:
-    """Let the handler have these signals until the stack closes, but those that are ignored."""
+    """Give these signals to the handler until the stack closes, but leave ignored ones alone."""
     for name in names:
         number = getattr(signal, name, None)
         if number and signal.getsignal(number) != signal.SIG_IGN:
-            stack.callback(signal.signal, number, signal.signal(number, handler))
+            before = signal.signal(number, handler)
+            stack.callback(signal.signal, number, before)
 
 @contextlib.contextmanager
 def taken_keys() -> Iterator[Keys]:
-    """Take window, signals and terminal for a run, in this order; give them back in the reverse.
+    """Take window, signals and terminal for a run; give them back in the reverse order.
 
-    A display that accepts and does not answer hangs pygame. Then nothing is raw yet, or any more,
-    and Ctrl-C, whose handler is the system's meanwhile, ends the program.
+    A display that accepts and does not answer hangs pygame, when the window opens or closes. The
+    terminal is not raw then, and Ctrl-C, left to the system meanwhile, ends the program.
     """
     keys = Keys()
     with contextlib.ExitStack() as stack:

@@ -77,7 +77,7 @@ def test_the_rates_and_errors_of_which_method_when_are_those_of_the_chart() -> N
 def test_the_exercise_s_fourth_motion_has_the_letters_of_exact(tmp_path: Path) -> None:
     text = (HERE / "airtrack.py").read_text()
     for old, new in (
-            ("# A fourth motion is written above", listing("def mean(") + "\n# A fourth motion"),
+            ("# To add a motion, write", listing("def mean(") + "\n# To add a motion, write"),
             ('"exact": exact}', '"exact": exact, "mean": mean}'),
             ('("forward", "backward", "exact"))', '("forward", "backward", "exact", "mean"))')):
         assert text.count(old) == 1

@@ -214,7 +214,7 @@ def test_p_pauses_tells_the_moment_and_resumes_without_a_leap(
     out = play("99 d v_mps=0.4 fps_target=10 use_observed_dt=True", t4_05=key, t24=key, t25_05="x")
     assert max(clock.lengths_s()) == pytest.approx(20, abs=0.1)
     (frame, t_s), = re.findall(
-        r"^paused after frame (\d+), t = (.*) s: p goes on, s steps, x quits$", out, re.MULTILINE)
+        r"^paused after frame (\d+), t = (.*) s: p resumes, s steps, x quits$", out, re.MULTILINE)
     assert frame == "11"
     assert float(t_s) == pytest.approx(1.1, abs=0.02)
     xs = positions_m(out)
@@ -288,7 +288,7 @@ def test_the_keys_are_told_and_the_next_example_is_named_where_there_are_any(
     out = " ".join(play("3 --frames 2").split())
     assert ("No window for the keys: no." in out) is bool(why_shut)
     assert (f"Keys, {where}: p or Ctrl-S pauses, s steps one frame" in out) is bool(where)
-    assert ("p holds this text" in out) is bool(where)
+    assert ("p to hold this text" in out) is bool(where)
     assert out.endswith("Next: python airtrack.py 4" if where else "that is the frame limit.")
     for last in (18, 99, -1):
         assert "Next" not in play(f"{last} --frames 2")

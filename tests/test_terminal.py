@@ -150,7 +150,7 @@ def test_a_key_or_a_signal_ends_the_run_and_leaves_the_terminal_as_it_was_found(
 def test_pausing_and_stepping_leave_on_a_narrow_screen_the_frames_alone() -> None:
     diamond = "   *\r\n  * *\r\n *   *\r\n  * *\r\n   *\r\n\r\n"
     with Terminal(*quick(pause_s=1e6), "1", columns=40, NO_COLOR="1") as terminal:
-        terminal.until("The film begins in ", "it.\r\n")
+        terminal.until("The film begins in ", "to begin.\r\n")
         for key, *told in (("p", "paused after frame 0"), ("\x03", diamond, "paused after frame 0"),
                            ("s", "paused after frame 1"), ("s", "paused after frame 2"),
                            ("\x13", "\r\n", "\r\n"), ("\x13", "paused after frame ")):
@@ -206,7 +206,7 @@ def test_a_call_that_is_interrupted_or_finds_the_terminal_gone_is_no_error(
 def test_a_terminal_that_is_not_input_and_output_and_the_controlling_one_is_left_alone(
         line: str, change: str) -> None:
     with Terminal("sh", "-c", line, "sh", *quick(change)) as terminal:
-        terminal.until("Ctrl-C begins it, then quits.", "FPS")
+        terminal.until("Ctrl-C to begin, then to quit.", "FPS")
         assert terminal.mode() == terminal.found
 
 

@@ -26,7 +26,7 @@ MISSING += [] if HAS_PYGAME else ["pygame"]
 needs_window = pytest.mark.skipif(bool(MISSING), reason=f"not installed: {', '.join(MISSING)}")
 
 PATIENCE_S = 30  # for what must come: only a test that fails waits so long
-RUNNING, PAUSED = "running p: pause s: step x: quit", "PAUSED p: go on s: step x: quit"
+RUNNING, PAUSED = "running p: pause s: step x: quit", "PAUSED p: resume s: step x: quit"
 WHITE, DARK_ORANGE = (255, 255, 255), (255, 140, 0)
 
 
@@ -176,7 +176,7 @@ def test_window_and_terminal_serve_together_and_a_signal_ends_both(screen: Scree
     from test_terminal import Terminal, quick
 
     with Terminal(*quick(pause_s=1e6), DISPLAY=screen.name, SDL_VIDEODRIVER=None) as terminal:
-        terminal.until("Keys, in the little window and in this terminal: p ", "it.\r\n")
+        terminal.until("Keys, in the little window and in this terminal: p ", "to begin.\r\n")
         terminal.press("p")
         terminal.until("paused")
         window = screen.window_of(terminal.program)
