@@ -5,7 +5,7 @@
     python airtrack.py chart [EXAMPLE] [NAME=VALUE ...] [--save FILE]
     python airtrack.py stability [EXAMPLE] [NAME=VALUE ...]
 
-    chart        speed against accuracy; --save draws it as .png, .svg or .pdf too
+    chart        speed against accuracy; --save draws it as .png, .svg or .pdf
     stability    where methods fail
     EXAMPLE      its number (see -h); default 0, for chart and stability 10
     d            details after each line: position, velocity, frame rate
@@ -56,14 +56,14 @@ class Scene:
     motion: str = setting("backward", "how the car is moved", ("forward", "backward", "exact"))
     correction: str = setting("rebound", "how a collision is settled",
                               ("none", "surface", "rebound", "rewind", "replay"))
-    fps_target: float = setting(30.0, "frames a second, for time step and pace", (0.1, 1000), "1/s")
-    use_observed_dt: bool = setting(False, "the time step follows the pace observed a frame before")
-    jitter: float = setting(0.0, "how much the pace varies; 0.25: by up to a quarter", (0, 0.9))
+    fps_target: float = setting(30.0, "frames a second: sets step and pace", (0.1, 1000), "1/s")
+    use_observed_dt: bool = setting(False, "the time step follows the pace of the frame before")
+    jitter: float = setting(0.0, "part by which the pace (not the step) varies", (0, 0.9))
     auto_off: bool = setting(True, "stop when the car rests against a wall")
     m_to_px: float = setting(55.0, "zoom; a pixel is a character", (0.001, 1000), "px/m")
     width_px: int = setting(135, "width of the picture, which begins at x = 0", (10, 1000), "px")
     show_start_mark: bool = setting(False, "draw a . where the car started")
-    show_collision_mark: bool = setting(True, "draw a 0 where a move ended beyond a wall")
+    show_collision_mark: bool = setting(True, "in a collision, draw a 0 where the move alone ended")
     show_exact_mark: bool = setting(False, "draw an o where the car truly is")
 
     def __post_init__(self) -> None:
@@ -80,18 +80,18 @@ class Scene:
 #
 # v changes during the frame. Euler's methods hold it constant: forward takes the frame's first v,
 # backward (for a constant a the same as semi-implicit Euler) its last. Both are of first order:
-# half the dt, half the error after a given time. exact has no error at any dt, but it needs a
-# constant a, as rewind and replay do. Another force would make a a function of x and v.
+# half the dt, half the error after a given time. exact has no error at any dt. Another force would
+# come in here, as an a that depends on x and v; exact, rewind and replay need a constant a.
 # E = v^2/2 - a x is the car's energy per kilogram. In free flight it should not change.
 
 State = tuple[float, float]  # x_m, v_mps
 
 def forward(x_m: float, v_mps: float, a_mps2: float, dt_s: float) -> State:
-    """Forward Euler: x + v dt, then v + a dt. E changes by +a^2 dt^2/2."""
+    """Forward Euler: x + v dt, then v + a dt. Each step changes E by +a^2 dt^2/2."""
     return x_m + v_mps * dt_s, v_mps + a_mps2 * dt_s
 
 def backward(x_m: float, v_mps: float, a_mps2: float, dt_s: float) -> State:
-    """Backward Euler: v + a dt, then x + v dt. E changes by -a^2 dt^2/2."""
+    """Backward Euler: v + a dt, then x + v dt. Each step changes E by -a^2 dt^2/2."""
     v_mps += a_mps2 * dt_s
     return x_m + v_mps * dt_s, v_mps
 
@@ -107,7 +107,7 @@ MOTIONS = {"forward": forward, "backward": backward, "exact": exact}
 #
 # The corrections, from the crudest to the best; each can do what the one before it cannot. They
 # take the x and v that the move ended with, the wall that x is beyond, a and CR. Each reverses v
-# itself and keeps CR of it, since rewind needs the v before the bounce. In what they say,
+# itself and keeps CR of it, since rewind needs the v before the bounce. In their texts
 #     overlap        is how far x is beyond the wall,
 #     off the wall   is back towards the track,
 #     g              is an acceleration that pulls into the wall.
@@ -116,15 +116,15 @@ def none(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> S
     """Leave the car beyond the wall: a trap.
 
     Slowed by CR < 1, or pulled into the wall, the car may not be back on the track one frame later.
-    Then v is reversed again, now deeper into the wall. From there on each way back is shorter than
-    the way in before it: the car is stuck, and a pull into the wall makes it sink (example 3).
-    Forward Euler may creep out, by the energy that it gains. Under a pull off the wall it is the
-    other way round: forward sinks, the others may creep out.
+    Then v is reversed again, now deeper into the wall. From there on each move out is shorter than
+    the move in before it: the car is stuck, and a pull into the wall makes it sink (example 3).
+    Only forward Euler may creep out then, by the energy that it gains. Under a pull off the wall,
+    forward sinks and the others may creep out.
     """
     return x_m, -CR * v_mps
 
 def surface(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
-    """Put the car on the wall, where it cannot be stuck.
+    """Put the car on the wall, never beyond it, so that it is never stuck.
 
     What is left of the frame after the bounce is lost: the car leaves the wall up to dt late. And
     at CR = 1, at the wall that it is pulled to, it is lifted by overlap at an unchanged speed: E
@@ -135,27 +135,28 @@ def surface(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -
 def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Put the car CR * overlap off the wall: about as far as it has bounced back by now.
 
-    Only about: it bounced at its speed at the wall, not at that of the frame's end. At CR = 1, at
-    the wall that it is pulled to, it is lifted by 2 * overlap at an unchanged speed: E gains
-    2 g * overlap, anything from 0 to 2 g v dt, v being the speed at the wall. Backward Euler loses
-    g^2 dt^2/2 in each of the 2 v/(g dt) frames of the flight to the next bounce, g v dt in all. So
-    they cancel on average, and the car wanders about the truth (examples 8 and 16). Exact motion
-    loses nothing, so E grows (example 17). With CR * overlap longer than the track, the car is
-    thrown through the far wall (example 14).
+    Only about: it bounced at its speed s at the wall, and v is that of the frame's end. At CR = 1,
+    at the wall that it is pulled to, it is lifted by 2 * overlap at an unchanged speed: E gains
+    2 g * overlap, anything from 0 to about 2 g s dt. Backward Euler loses g^2 dt^2/2 in each of the
+    2 s/(g dt) frames of the flight to the next bounce, g s dt in all. So gain and loss cancel on
+    average, and the car wanders about the truth (examples 8 and 16). The exact motion loses
+    nothing, so E grows (example 17). With CR * overlap longer than the track, the car is thrown
+    through the far wall (example 14).
     """
     overlap_m = x_m - wall_m
     return x_m - overlap_m * (1 + CR), -CR * v_mps
 
 def rewind(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
-    """Go back to the wall, bounce there, and go forward again for as long as the car was beyond.
+    """Go back to the wall, bounce there, and go on for as long as the car was beyond.
 
-    Both ways go by the formulas of the exact motion, so rewind works with that motion only. It is
+    It goes both ways by the formulas of the exact motion, so it works with that motion only. It is
     right for a frame that holds one bounce and whose move ends beyond the wall (example 10). It
     cannot settle a second bounce. And where the pull has brought the car back to the track by the
     frame's end, no collision is found: a missed event (example 18).
     """
     overlap_m = x_m - wall_m
-    # The velocity s at the wall, from energy: s^2 = v^2 - 2 a overlap. It has overlap's sign.
+    # The velocity s at the wall, from energy: s^2 = v^2 - 2 a overlap. It has overlap's sign. (The
+    # max here and the 0.0 below are for a car that was thrown beyond the wall, never at it.)
     s_mps = math.copysign(math.sqrt(max(0.0, v_mps**2 - 2 * a_mps2 * overlap_m)), overlap_m)
     # The time t beyond, from the mean velocity: overlap = (s + v)/2 t. Where the pull has turned
     # the car round, v is opposite to s, and s + v would cancel: there v = s + a t gives t.
@@ -164,11 +165,11 @@ def rewind(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) ->
     else:
         t_s = (v_mps - s_mps) / a_mps2 if a_mps2 else 0.0
     x_m, v_mps = exact(wall_m, -CR * s_mps, a_mps2, t_s)
-    is_beyond_again = (x_m - wall_m) * overlap_m > 0  # there was a second bounce
+    is_beyond_again = (x_m - wall_m) * overlap_m > 0  # after a second bounce: leave it on the wall
     return (wall_m if is_beyond_again else x_m), v_mps
 
 CORRECTIONS = {"none": none, "surface": surface, "rebound": rebound, "rewind": rewind}
-EXACT_ONLY = ("rewind", "replay")  # they retrace or follow the exact motion
+EXACT_ONLY = ("rewind", "replay")  # replay, below, corrects no move: it replaces it
 
 def step(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> tuple[float, float, float | None]:
     """One frame of dt_s: move the car, settle any collision. Returns x_m, v_mps, mark_m.
@@ -179,7 +180,7 @@ def step(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> tuple[float, fl
     on_track_m = scene.to_track(free_m)  # the wall, if the move ended beyond one
     is_beyond = on_track_m != free_m
     if scene.correction == "replay":
-        # A move that ends on the track was beyond a wall only if v has changed its sign.
+        # A move that ends on the track can have been beyond a wall only if v has changed its sign.
         if is_beyond or v_mps * free_mps < 0:
             x_m, v_mps = replay(scene, x_m, v_mps, dt_s)
             return x_m, v_mps, None if (x_m, v_mps) == (free_m, free_mps) else free_m
@@ -191,16 +192,16 @@ def step(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> tuple[float, fl
 def replay(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> State:
     """Follow the exact motion from the frame's start, from wall to wall.
 
-    It replaces the move, and is right for frames of any length, with several bounces (example 15)
-    or infinitely many (example 12). The loop ends: after the first flight, each one crosses the
-    whole track at a limited speed, or hops begin, which are taken all at once.
+    It is right for frames of any length, with several bounces (example 15) or infinitely many
+    (example 12). The loop ends: after the first flight, each one crosses the whole track, which
+    takes time, or hops begin, which are taken all at once.
     """
     x_m, a_mps2, CR = scene.to_track(x_m), scene.a_mps2, scene.CR
     left_m, right_m = scene.left_edge_m, scene.right_edge_m
-    graze_m = 1e-12 * (abs(left_m) + abs(right_m))
+    graze_m = 1e-12 * (abs(left_m) + abs(right_m))  # well above the rounding of a position
     t_s = dt_s  # what is left of the frame
     while True:
-        # Which wall is next? For arrival, what leads towards the wall is positive.
+        # Which wall is next? arrival() counts towards the wall as positive.
         to_left = (*arrival(x_m - left_m, -v_mps, -a_mps2, graze_m), -1, left_m)
         to_right = (*arrival(right_m - x_m, v_mps, a_mps2, graze_m), 1, right_m)
         flight_s, s_mps, side, wall_m = min(to_left, to_right)  # the sooner one
@@ -209,7 +210,7 @@ def replay(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> State:
         # Go there, and bounce.
         t_s -= flight_s
         x_m, v_mps, g_mps2 = wall_m, -side * CR * s_mps, side * a_mps2
-        # v^2/(2 g) <= track: too slow for the far wall, against the pull g back to this one.
+        # Too slow to reach the far wall against a pull g back to this one: v^2/(2 g) <= track.
         if g_mps2 > 0 and v_mps * v_mps <= 2 * g_mps2 * (right_m - left_m + graze_m):
             t_s, v_mps = hops(v_mps, g_mps2, CR, t_s)
             break
@@ -219,15 +220,15 @@ def replay(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> State:
 def arrival(d_m: float, u_mps: float, g_mps2: float, graze_m: float) -> tuple[float, float]:
     """When, and how fast, does the car reach a wall d_m ahead? (t_s, s_mps); never: (inf, 0).
 
-    u_mps is its speed, g_mps2 its acceleration, both towards the wall.
+    u_mps is its velocity, g_mps2 its acceleration, both towards the wall.
     """
     if u_mps <= 0 and g_mps2 <= 0:
         return math.inf, 0.0
     # The speed at the wall, from energy: s^2 = u^2 + 2 g d.
     s_squared = u_mps * u_mps + 2 * g_mps2 * d_m
-    # If g < 0, the car turns s^2/(-2 g) past the wall; short of it, if s^2 < 0. Up to graze_m past
-    # it, a hit counts as a miss. So grazes stay on time: as hits, their error of 1e-16 in s^2 would
-    # be one of 1e-8 in s. A true hit costs up to 4 sqrt(d graze_m), 9e-6 m on the default track.
+    # If g < 0, the car turns s^2/(-2 g) beyond the wall (before it, where s^2 < 0). Up to graze_m
+    # beyond, it counts as a miss, lest an error of 1e-16 in s^2 become one of 1e-8 in s. The price:
+    # a true hit so slight misplaces the car, by up to 4 sqrt(d graze_m): 9e-6 m by default.
     if s_squared < -2 * g_mps2 * graze_m:
         return math.inf, 0.0
     s_mps = math.sqrt(s_squared)
@@ -235,15 +236,14 @@ def arrival(d_m: float, u_mps: float, g_mps2: float, graze_m: float) -> tuple[fl
     return (2 * d_m / (u_mps + s_mps) if u_mps > 0 else (s_mps - u_mps) / g_mps2), s_mps
 
 def hops(v_mps: float, g_mps2: float, CR: float, t_s: float) -> tuple[float, float]:
-    """Take all whole hops that fit into t_s at once. Returns the time left, and v off the wall.
+    """Take at once all whole hops that fit into t_s. Returns the time left, and v off the wall.
 
     Under a pull g the car hops for h = 2 v/g, then for CR h, CR^2 h, and so on. n hops last
-    h (1 + CR + ... + CR^(n-1)) = h (1 - CR^n)/(1 - CR), infinitely many h/(1 - CR). That moment is
-    the Zeno point: then the car is at rest. So a frame costs the same with three hops and with a
-    million, and it ends even where they are infinitely many.
+    h (1 + CR + ... + CR^(n-1)) = h (1 - CR^n)/(1 - CR), and infinitely many h/(1 - CR). Then comes
+    rest: that moment is the Zeno point. So any number of hops costs the same.
     """
     h_s = 2 * abs(v_mps) / g_mps2
-    if h_s <= t_s * (1 - CR) or t_s + h_s == t_s:  # or a hop vanishes in the rounding of t_s
+    if h_s <= t_s * (1 - CR) or t_s + h_s == t_s:  # or a hop is too short to change t_s
         return 0.0, 0.0
     if CR == 1:
         return math.fmod(t_s, h_s), v_mps
@@ -251,13 +251,13 @@ def hops(v_mps: float, g_mps2: float, CR: float, t_s: float) -> tuple[float, flo
     # the rounding of 1 + y that would spoil them near CR = 1.
     n = math.floor(math.log1p(-t_s * (1 - CR) / h_s) / math.log(CR))
     n_hops_s = -h_s * math.expm1(n * math.log(CR)) / (1 - CR)
-    return max(0.0, t_s - n_hops_s), v_mps * CR**n
+    return max(0.0, t_s - n_hops_s), v_mps * CR**n  # max: round-off must not make it negative
 
 
 # ==== 4. Drawing: one frame, one line ===========================================================
 
 def paint(line: bytearray, mark: str, x_px: float) -> None:
-    """Put the mark into its column, if the line has it, over what is there."""
+    """Paint the mark over what is in its column, if the line has that column."""
     column = round(x_px)  # int would round -0.9 to 0, into the picture
     if 0 <= column < len(line):
         line[column] = ord(mark)
@@ -276,7 +276,7 @@ def render_track(scene: Scene, x_m: float, mark_m: float | None = None,
     paint(line, "|", scene.right_edge_m * zoom)
     column, last = round(x_m * zoom), scene.width_px - 1
     mark = "<" if column < 0 else ">" if column > last else "*"  # < and >: outside the picture
-    paint(line, mark, min(max(column, 0), last))  # last, so that it is seen even on a wall
+    paint(line, mark, min(max(column, 0), last))  # after the walls, to be seen even there
     return line.decode()
 
 def details_text(x_m: float, v_mps: float, fps: float, exact_m: float | None) -> str:
@@ -288,19 +288,19 @@ def details_text(x_m: float, v_mps: float, fps: float, exact_m: float | None) ->
 # ==== 5. The run: the main loop =================================================================
 
 def planned(scene: Scene) -> Iterator[tuple[float, float]]:
-    """Yield how long each frame should last, the same in every run, and the rate in FPS."""
+    """Yield how long each frame should last, and the target rate in FPS; the same in every run."""
     fps, jitter = scene.fps_target, scene.jitter
-    for frame in count(1):  # 0.618, the golden ratio's fraction, spreads the lengths evenly
+    for frame in count(1):  # times 0.618, the golden ratio's fraction: spreads the lengths evenly
         yield (1 + jitter * (2 * (0.618 * frame % 1) - 1)) / fps, fps
 
 def paced(scene: Scene, keys: Keys) -> Iterator[tuple[float, float]]:
-    """At the end of each frame yield how long it lasted, and its rate; until a key ends the run.
+    """At each frame's deadline yield how long the last frame took, and its rate; until a key quits.
 
     A generator, as planned is, so that one loop serves both; what follows the yield runs when the
-    frame has been drawn. The deadlines are absolute: a sleep of dt after each frame would add to it
-    what computing, printing and oversleeping take.
+    next frame has been drawn. The deadlines are absolute: a sleep of dt after each frame would make
+    it longer by what computing, printing and oversleeping take.
     """
-    began_s = deadline_s = time.perf_counter() - 1 / scene.fps_target  # the first is due at once
+    began_s = deadline_s = time.perf_counter() - 1 / scene.fps_target  # so the first is due at once
     for due_s, _ in planned(scene):
         deadline_s += due_s
         was_paused = keys.wait_until(deadline_s)
@@ -309,7 +309,7 @@ def paced(scene: Scene, keys: Keys) -> Iterator[tuple[float, float]]:
         now_s = time.perf_counter()
         length_s = due_s if was_paused else now_s - began_s
         began_s = now_s
-        # Visibly long, and 1.5 times as long as due: a stall (a dragged window). Yield 0 for it.
+        # Visibly long, and over 1.5 times as long as due: a stall (a dragged window). Yield 0.
         is_stall = length_s > max(0.15, 1.5 * due_s)
         yield 0.0 if is_stall else length_s, 1 / length_s
         if now_s > deadline_s + due_s:  # late by a whole frame: do not race to catch up
@@ -320,7 +320,7 @@ def truth_of(scene: Scene) -> Scene:
     return replace(scene, motion="exact", correction="replay", x_m=scene.to_track(scene.x_m))
 
 def is_at_rest(scene: Scene, recent_m: deque[float]) -> bool:
-    """Whether the car stays at the wall that it is pulled to, or without a pull at either."""
+    """Whether the car stays at the wall that it is pulled to or, without a pull, at either."""
     mean_m = sum(recent_m) / len(recent_m)
     is_left = scene.a_mps2 <= 0 and abs(mean_m - scene.left_edge_m) <= 0.001
     is_right = scene.a_mps2 >= 0 and abs(mean_m - scene.right_edge_m) <= 0.001
@@ -332,7 +332,7 @@ def run(scene: Scene, details: bool, limit: int, keys: Keys | None,
     truth = truth_of(scene)
     x_m, v_mps = scene.x_m, scene.v_mps
     exact_m, exact_mps = (truth.x_m if scene.show_exact_mark else None), truth.v_mps
-    recent_m = deque[float](maxlen=max(10, round(scene.fps_target / 3)))  # 1/3 s, or 10 frames
+    recent_m = deque[float](maxlen=max(10, round(scene.fps_target / 3)))  # 1/3 s, at least 10
     frame, t_s = 0, 0.0
     why = "that is the frame limit"
     beats = paced(scene, keys) if keys else planned(scene)
@@ -362,7 +362,7 @@ def run(scene: Scene, details: bool, limit: int, keys: Keys | None,
 
 # ==== 6. What film, chart and map share in printing =============================================
 
-INKS = {  # marks of film, chart and map: their colour, as terminals number it
+INKS = {  # marks of film, chart and map: the terminal's number for their colour
     "0rXx": 31,  # red
     "ow-": 32,  # green
     "*<>eWGgLl": 33,  # amber
@@ -375,9 +375,8 @@ COLOURED = {
 
 def inked(line: str) -> str:
     """The line with its marks in colours, or as it is where nobody wants colours."""
-    if os.environ.get("NO_COLOR") or os.environ.get("TERM", "dumb") == "dumb":
-        return line
-    if not sys.stdout.isatty():
+    is_plain = os.environ.get("NO_COLOR") or os.environ.get("TERM", "dumb") == "dumb"
+    if is_plain or not sys.stdout.isatty():
         return line
     return line.translate(COLOURED)
 
@@ -389,23 +388,22 @@ def say(text: str, indent: int = 0) -> None:
 
 # ==== 7. Speed against accuracy: the chart ======================================================
 
-SPAN_S = 20  # what chart and map simulate,
-CUTS = 9     # and in how many ways they cut it into frames
+SPAN_S, CUTS = 20, 9  # chart and map: seconds to simulate, ways to cut them into frames
 CHART_FPS = (10, 30, 60, 120, 240, 480, 960, 1920, 3840)  # multiples of 10, for simulate
 SERIES = {"s": ("backward", "surface"), "b": ("backward", "rebound"), "r": ("exact", "rebound"),
           "w": ("exact", "rewind"), "e": ("exact", "replay")}
 TABLE_HEAD = """
-         s backward     b backward        r exact        w exact        e exact
+        s: backward    b: backward       r: exact       w: exact       e: exact
           + surface      + rebound      + rebound       + rewind       + replay
  FPS  error m    us  error m    us  error m    us  error m    us  error m    us"""
 Points = dict[str, list[tuple[float, float]]]  # letter: (error_m, cost_us) at each rate
 step_once = cache(step)  # all methods and cuts need the truth at the same moments
 
 def simulate(scene: Scene, fps: int, cut: int) -> Iterator[tuple[State, State]]:
-    """Run for SPAN_S; yield the car's state and the true one, every 0.1 s or each longer frame.
+    """Run for SPAN_S; yield the car's state and the true one every 0.1 s, or each longer frame.
 
-    Where in a frame the car meets a wall is luck. So a cut begins its first frame cut/9 of a frame
-    late, at the true state of that moment.
+    Where in a frame the car meets a wall is luck. So the frames are shifted: a run begins cut/9 of
+    a frame late, at the true state of that moment.
     """
     truth = truth_of(scene)
     late_s = cut / CUTS / fps
@@ -450,30 +448,30 @@ def table(scene: Scene) -> Points:
             points[letter].append((error_m, us))
             row += f"{error_m:9.1e}{two_digits(us):>6}"
         print(row, flush=True)
-    print(f"Within a pixel ({1000 / scene.m_to_px:.3g} mm) in every cut: from what rate on, its us")
+    print(f"Within a pixel ({1000 / scene.m_to_px:.3g} mm) in all cuts: lowest rate, and its us")
     cells = (first_within(series, 1 / scene.m_to_px) for series in points.values())
     print(f"    {''.join(cells)}\n")
     return points
 
 def error_px(error_m: float) -> int:
-    """Its column: eight to a power of ten, from 1e-6 to 10 m; beyond them, the picture's edge."""
+    """An error's column: eight to a power of ten, from 1e-6 to 10 m; beyond these, the edge."""
     return round(8 * math.log10(min(max(error_m, 1e-6), 10) / 1e-6))
 
 def picture(points: Points, pixel_m: float) -> None:
-    """Print the points as a film: processor time runs downwards, four rows to a power of ten."""
+    """Print the points, like a film: time runs downwards, here in four rows to a power of ten."""
     marks = [(round(4 * math.log10(us)), error_px(error_m), letter)
              for letter, series in points.items() for error_m, us in series]
     limit_px = error_px(pixel_m)
-    say("To the right: largest error, looked at every 0.1 s. Downwards: processor time for a "
-        "simulated second, in us (microseconds). So the best are in the upper left. Beyond the | "
-        "the error is more than one drawn pixel, and a film shows it.")
-    say("; ".join(f"{letter} {' + '.join(method)}" for letter, method in SERIES.items())
-        + "; + where series meet.")
+    say("To the right: largest error, sampled every 0.1 s. Downwards: processor time for a "
+        "simulated second, in us (microseconds). The best are in the upper left. Right of the | "
+        "the error is more than a drawn pixel, and a film shows it.")
+    say("; ".join(f"{letter}: {' + '.join(method)}" for letter, method in SERIES.items())
+        + "; +: several of them.")
     print(f"\n{'one drawn pixel |':>{limit_px + 11}}")
     print("    us    <= 1 um 10 um   0.1 mm  1 mm    1 cm    0.1 m   1 m     >= 10 m")
     for row in range(min(marks)[0], max(marks)[0] + 1):
         line = bytearray(b" " * 57)
-        paint(line, "|", limit_px)
+        paint(line, "|", limit_px)  # a wall, since on its left no film shows the error
         for cost_px, column, letter in marks:
             if cost_px == row:
                 paint(line, letter if chr(line[column]) in f" |{letter}" else "+", column)
@@ -510,7 +508,7 @@ def save(figure: Any, file: str, points: Points, pixel_m: float, heading: str) -
 
 def chart(scene: Scene, heading: str, file: str | None) -> None:
     """Print the table and the picture; with a file, save the picture as well."""
-    figure = None if file is None else new_figure(file)  # what it refuses, before the measuring
+    figure = None if file is None else new_figure(file)  # fails before the measuring
     say(f"Speed against accuracy. {heading}")
     points = table(scene)
     picture(points, 1 / scene.m_to_px)
@@ -522,17 +520,17 @@ def chart(scene: Scene, heading: str, file: str | None) -> None:
 
 MAP_FPS = (1, 2, 5, 10, 30, 60, 120, 240, 1000)  # at most 10, or multiples of it
 VERDICTS = {  # from the worst to the best
-    "X": "out: further than a track's length beyond a wall",
+    "X": "out: further beyond a wall than the track is long",
     "S": "stuck: beyond the same wall all through the last 5 s",
-    "W": "wandering: some of the nine cuts gain energy, others lose it",
-    "G": "gain: in the last 5 s, on average, over 1 % more energy than the true car",
-    "L": "loss: over 1 % less",
-    "P": "the right energy, but more than a drawn pixel off at some sample",
+    "W": "wandering: some cuts gain energy, others lose it",
+    "G": "gain: in the last 5 s over 1 % more energy than the true car, on average",
+    "L": "loss: over 1 % less energy",
+    "P": "energy within 1 %, but more than a drawn pixel off at some sample",
     "-": "within a drawn pixel of the truth at every sample",
 }
 
 def verdict(scene: Scene, fps: int, cut: int) -> str:
-    """The first letter that fits one run. (W takes several.)"""
+    """The letter of one run: of X, S, -, G, L and P, the first that fits. W takes several runs."""
     states = list(simulate(scene, fps, cut))
     late = states[len(states) * 3 // 4:]  # the last 5 s of 20
     beyond_m = [x_m - scene.to_track(x_m) for (x_m, _), _ in states]
@@ -543,14 +541,14 @@ def verdict(scene: Scene, fps: int, cut: int) -> str:
         return "S"
     if max(abs(x_m - true_m) for (x_m, _), (true_m, _) in states) <= 1 / scene.m_to_px:
         return "-"
-    # E = v^2/2 - a x, as in section 2. The limit is 1 % of what the scene has of it.
+    # E = v^2/2 - a x, as in section 2. 1 % is of v^2/2 at the start and |a| times the track.
     gain = sum((v_mps**2 - true_mps**2) / 2 - scene.a_mps2 * (x_m - true_m)
                for (x_m, v_mps), (true_m, true_mps) in late) / len(late)
     limit = 0.01 * (scene.v_mps**2 / 2 + abs(scene.a_mps2) * track_m)
     return "G" if gain > limit else "L" if gain < -limit else "P"
 
 def cell(found: set[str]) -> str:
-    """One letter for nine verdicts: the worst, as a small letter where only some deserve it."""
+    """One letter for nine verdicts: the worst, or its small letter where not all are so bad."""
     worst = min(found, key=list(VERDICTS).index)
     if worst == "G" and "L" in found:
         return "W"
@@ -571,9 +569,9 @@ def stability(scene: Scene, heading: str) -> None:
                           for fps in MAP_FPS)
             print(f"{f'{motion} + {correction}':20}{inked(row)}", flush=True)
     print(f"\n{rates}\n")
-    say("The worst of the nine cuts, from X to -; a small letter where only some deserve it. A row "
-        "need not improve to the right: how far beyond a wall a frame finds the car is luck. Where "
-        "the scene loses energy, G is mostly a car that does not come to rest.")
+    say("Each letter is the worst of nine cuts, X worst, - best; small: only some cuts are so bad. "
+        "A higher rate need not be better: how far a wall is overshot is luck. At CR < 1, G mostly "
+        "means that the car does not come to rest. 1 % is of v^2/2 at the start + |a| * track.")
     for letter, meaning in VERDICTS.items():
         print(f"{inked(letter)}  {meaning}")
 
@@ -613,8 +611,8 @@ def check(scene: Scene) -> None:
     if scene.correction in EXACT_ONLY:
         with_it = f"with correction={scene.correction}"
         if scene.motion != "exact":
-            raise BadInput(f"motion must be exact {with_it}, not {scene.motion}: set motion=exact, "
-                           "or another correction too")
+            raise BadInput(f"motion must be exact {with_it}, not {scene.motion}: choose "
+                           "motion=exact, or another correction")
         if scene.x_m != scene.to_track(scene.x_m):
             raise BadInput(f"x_m must be from {left_m} to {right_m} {with_it}, not {scene.x_m}")
 
@@ -636,7 +634,7 @@ def in_words(scene: Scene) -> str:
     return f"The car starts at x = {scene.x_m:g} m, {speed}, {pull}; CR = {scene.CR:g}."
 
 def method_in_words(scene: Scene) -> str:
-    """How the car is moved and settled, how often, and which other settings are not the default."""
+    """Motion, correction, frame rate, and whatever else is not the default, in words."""
     told = ("x_m", "v_mps", "a_mps2", "CR", "motion", "correction", "fps_target")
     others = "".join(f", {row.name}={getattr(scene, row.name)}" for row in fields(scene)
                      if row.name not in told and getattr(scene, row.name) != row.default)
@@ -650,7 +648,7 @@ def fitted(scene: Scene, details: bool) -> Scene:
     columns = shutil.get_terminal_size().columns - len(widest)
     if columns >= scene.width_px or not sys.stdout.isatty():
         return scene
-    columns = max(10, columns)  # as a scene allows, and so the zoom
+    columns = max(10, columns)  # the least that a scene may have; likewise the zoom
     # Columns run from 0 to width - 1: what is in the last one stays in the last one.
     m_to_px = max(0.001, scene.m_to_px * (columns - 1) / (scene.width_px - 1))
     say(f"To fit, the picture is {columns} columns wide, {m_to_px:.3g} to a metre; the physics is "
@@ -720,8 +718,8 @@ def refusal(word: str) -> BadInput:
 
 def parsed(words: list[str]) -> tuple[dict[str, str], dict[str, Any]]:
     """What the words give: EXAMPLE, command and options; and the settings that they change."""
-    given, changes, rest = {}, {}, iter(words)
-    for word in rest:
+    given, changes = {}, {}
+    for word in (rest := iter(words)):
         name, equals, text = word.partition("=")
         if name in ("--frames", "--save"):
             given[name] = text if equals else next(rest, "")
@@ -756,8 +754,9 @@ def obey(words: list[str]) -> int:
         return film(scene, number, title, given)
     on_track = replace(scene, x_m=scene.to_track(scene.x_m))
     beyond = "" if on_track == scene else "It starts beyond a wall; here, by every method, on it. "
-    heading = (f"{title}. {in_words(scene)} {beyond}Its motion, correction and rate do not matter. "
-               f"{SPAN_S} simulated seconds, cut into frames in nine ways: the worst counts.")
+    heading = (f"{title}. {in_words(scene)} {beyond}The scene's own motion, correction and rate "
+               f"do not matter. Each method runs for {SPAN_S} simulated seconds in nine cuts, the "
+               "frames shifted by ninths of a frame: the worst counts.")
     if command == "stability":
         stability(on_track, heading)
     else:

@@ -43,7 +43,7 @@ def test_the_heading_says_what_is_measured_and_is_true(command: str, capsys: Cap
         return capsys.readouterr().out.split("\n\n", 1)
 
     heading, rest = told("4", "CR=0.5")
-    for part in ("Example 4", "CR=0.5", "x = 0.2 m", "20 simulated seconds", "nine ways: the worst",
+    for part in ("Example 4", "CR=0.5", "x = 0.2 m", "20 simulated seconds", "in nine cuts",
                  "starts beyond a wall; here, by every method, on it",
                  "motion, correction and rate do not matter"):
         assert part in " ".join(heading.split())
@@ -107,7 +107,7 @@ def test_the_last_row_says_from_which_rate_on_the_errors_are_within_a_pixel(
         words: list[str], pixel_m: float, wall_px: int) -> None:
     rates, *cells = columns(*words)
     for column, (letter, (motion, correction)) in zip(cells, SERIES.items(), strict=True):
-        assert column[:3] == ([letter, motion], ["+", correction], ["error", "m", "us"])
+        assert column[:3] == ([f"{letter}:", motion], ["+", correction], ["error", "m", "us"])
         expected = [">", "3840", "FPS"]
         for fps, (error_m, us) in reversed(list(zip(RATES, column[3:-2], strict=True))):
             assert float(us) == float(f"{fps * len(motion) / 10:.1e}")
@@ -119,8 +119,8 @@ def test_the_last_row_says_from_which_rate_on_the_errors_are_within_a_pixel(
     assert f"({1000 * pixel_m:.3g} mm)" in printed("chart", *words)
     *_, advice, picture = printed("chart", *words).split("\n\n")
     told = " ".join(advice.split())
-    for part in ("every 0.1 s", "in us (microseconds)", "the best are in the upper left",
-                 *(f"{letter} {' + '.join(method)}" for letter, method in SERIES.items())):
+    for part in ("every 0.1 s", "in us (microseconds)", "The best are in the upper left",
+                 *(f"{letter}: {' + '.join(method)}" for letter, method in SERIES.items())):
         assert part in told
     assert picture.index("|") == wall_px
 

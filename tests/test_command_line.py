@@ -30,10 +30,10 @@ WRONG = {  # a command line that is refused: what is said of it
     "auto_off=no": "auto_off must be False or True, not 'no'",
     "99 right_edge_m=0.259": "right_edge_m must be left_edge_m + 0.01 or more, not 0.259",
     "8 left_edge_m=2.195": "right_edge_m must be left_edge_m + 0.01 or more, not 2.2",
-    "8 correction=rewind": "motion must be exact with correction=rewind, not backward: set "
-                           "motion=exact, or another correction too",
-    "10 motion=forward": "motion must be exact with correction=rewind, not forward: set "
-                         "motion=exact, or another correction too",
+    "8 correction=rewind": "motion must be exact with correction=rewind, not backward: "
+                           "choose motion=exact, or another correction",
+    "10 motion=forward": "motion must be exact with correction=rewind, not forward: "
+                         "choose motion=exact, or another correction",
     "12 x_m=0.2": "x_m must be from 0.25 to 2.2 with correction=replay, not 0.2",
     "3 d 4": "one EXAMPLE at a time, not both 3 and 4",
     "chart 3 stability": "one command at a time, not both chart and stability",
