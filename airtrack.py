@@ -106,8 +106,8 @@ MOTIONS = {"forward": forward, "backward": backward, "exact": exact}
 # ==== 3. Colliding: the move ended beyond a wall; where is the car really? ======================
 #
 # The corrections, from the crudest to the best; each can do what the one before it cannot. They
-# take the x and v that the move ended with, the wall that x is beyond, a and CR. Each reverses v
-# itself and keeps CR of it, since rewind needs the v before the bounce. In their texts
+# take the x and v that the move ended with, the wall that x is beyond, a and CR. It is they who
+# reverse the velocity and keep CR of it, since rewind needs the v before the bounce. In their texts
 #     overlap        is how far x is beyond the wall,
 #     off the wall   is back towards the track,
 #     g              is an acceleration that pulls into the wall.
@@ -116,10 +116,10 @@ def none(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> S
     """Leave the car beyond the wall: a trap.
 
     Slowed by CR < 1, or pulled into the wall, the car may not be back on the track one frame later.
-    Then v is reversed again, now deeper into the wall. From there on each move out is shorter than
-    the move in before it: the car is stuck, and a pull into the wall makes it sink (example 3).
-    Only forward Euler may creep out then, by the energy that it gains. Under a pull off the wall,
-    forward sinks and the others may creep out.
+    If so, v is reversed again, now into the wall. From there on each move out is shorter than the
+    move in before it: the car is stuck, and a pull into the wall makes it sink (example 3). Only
+    forward Euler may creep out, by the energy that it gains. Under a pull off the wall it is the
+    other way round: forward sinks, and the others may creep out.
     """
     return x_m, -CR * v_mps
 
@@ -135,7 +135,7 @@ def surface(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -
 def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Put the car CR * overlap off the wall: about as far as it has bounced back by now.
 
-    Only about: it bounced at its speed s at the wall, and v is that of the frame's end. At CR = 1,
+    Only about: it bounced at its speed s at the wall, but v is that of the frame's end. At CR = 1,
     at the wall that it is pulled to, it is lifted by 2 * overlap at an unchanged speed: E gains
     2 g * overlap, anything from 0 to about 2 g s dt. Backward Euler loses g^2 dt^2/2 in each of the
     2 s/(g dt) frames of the flight to the next bounce, g s dt in all. So gain and loss cancel on
@@ -155,8 +155,8 @@ def rewind(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) ->
     frame's end, no collision is found: a missed event (example 18).
     """
     overlap_m = x_m - wall_m
-    # The velocity s at the wall, from energy: s^2 = v^2 - 2 a overlap. It has overlap's sign. (The
-    # max here and the 0.0 below are for a car that was thrown beyond the wall, never at it.)
+    # The velocity s at the wall, from energy: s^2 = v^2 - 2 a overlap. It has overlap's sign. (max:
+    # round-off may make s^2 negative. The 0.0 below is for a car that never was at the wall.)
     s_mps = math.copysign(math.sqrt(max(0.0, v_mps**2 - 2 * a_mps2 * overlap_m)), overlap_m)
     # The time t beyond, from the mean velocity: overlap = (s + v)/2 t. Where the pull has turned
     # the car round, v is opposite to s, and s + v would cancel: there v = s + a t gives t.
@@ -210,7 +210,7 @@ def replay(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> State:
         # Go there, and bounce.
         t_s -= flight_s
         x_m, v_mps, g_mps2 = wall_m, -side * CR * s_mps, side * a_mps2
-        # Too slow to reach the far wall against a pull g back to this one: v^2/(2 g) <= track.
+        # v^2/(2 g) <= track, or a graze: too slow to reach the far wall, against a pull g.
         if g_mps2 > 0 and v_mps * v_mps <= 2 * g_mps2 * (right_m - left_m + graze_m):
             t_s, v_mps = hops(v_mps, g_mps2, CR, t_s)
             break
@@ -228,7 +228,7 @@ def arrival(d_m: float, u_mps: float, g_mps2: float, graze_m: float) -> tuple[fl
     s_squared = u_mps * u_mps + 2 * g_mps2 * d_m
     # If g < 0, the car turns s^2/(-2 g) beyond the wall (before it, where s^2 < 0). Up to graze_m
     # beyond, it counts as a miss, lest an error of 1e-16 in s^2 become one of 1e-8 in s. The price:
-    # a true hit so slight misplaces the car, by up to 4 sqrt(d graze_m): 9e-6 m by default.
+    # missing so slight a hit misplaces the car by up to 4 sqrt(d graze_m): 9e-6 m by default.
     if s_squared < -2 * g_mps2 * graze_m:
         return math.inf, 0.0
     s_mps = math.sqrt(s_squared)
@@ -240,7 +240,7 @@ def hops(v_mps: float, g_mps2: float, CR: float, t_s: float) -> tuple[float, flo
 
     Under a pull g the car hops for h = 2 v/g, then for CR h, CR^2 h, and so on. n hops last
     h (1 + CR + ... + CR^(n-1)) = h (1 - CR^n)/(1 - CR), and infinitely many h/(1 - CR). Then comes
-    rest: that moment is the Zeno point. So any number of hops costs the same.
+    rest: that moment is the Zeno point. So any number of hops takes the same time to compute.
     """
     h_s = 2 * abs(v_mps) / g_mps2
     if h_s <= t_s * (1 - CR) or t_s + h_s == t_s:  # or a hop is too short to change t_s
@@ -290,14 +290,14 @@ def details_text(x_m: float, v_mps: float, fps: float, exact_m: float | None) ->
 def planned(scene: Scene) -> Iterator[tuple[float, float]]:
     """Yield how long each frame should last, and the target rate in FPS; the same in every run."""
     fps, jitter = scene.fps_target, scene.jitter
-    for frame in count(1):  # times 0.618, the golden ratio's fraction: spreads the lengths evenly
+    for frame in count(1):  # 0.618, the golden ratio's fraction, spreads the lengths evenly
         yield (1 + jitter * (2 * (0.618 * frame % 1) - 1)) / fps, fps
 
 def paced(scene: Scene, keys: Keys) -> Iterator[tuple[float, float]]:
     """At each frame's deadline yield how long the last frame took, and its rate; until a key quits.
 
     A generator, as planned is, so that one loop serves both; what follows the yield runs when the
-    next frame has been drawn. The deadlines are absolute: a sleep of dt after each frame would make
+    frame has been drawn. The deadlines are absolute: a sleep of dt after each frame would make
     it longer by what computing, printing and oversleeping take.
     """
     began_s = deadline_s = time.perf_counter() - 1 / scene.fps_target  # so the first is due at once
@@ -320,7 +320,7 @@ def truth_of(scene: Scene) -> Scene:
     return replace(scene, motion="exact", correction="replay", x_m=scene.to_track(scene.x_m))
 
 def is_at_rest(scene: Scene, recent_m: deque[float]) -> bool:
-    """Whether the car stays at the wall that it is pulled to or, without a pull, at either."""
+    """Whether the car is on average at the wall that it is pulled to; without a pull, at either."""
     mean_m = sum(recent_m) / len(recent_m)
     is_left = scene.a_mps2 <= 0 and abs(mean_m - scene.left_edge_m) <= 0.001
     is_right = scene.a_mps2 >= 0 and abs(mean_m - scene.right_edge_m) <= 0.001
@@ -391,7 +391,7 @@ def say(text: str, indent: int = 0) -> None:
 SPAN_S, CUTS = 20, 9  # chart and map: seconds to simulate, ways to cut them into frames
 CHART_FPS = (10, 30, 60, 120, 240, 480, 960, 1920, 3840)  # multiples of 10, for simulate
 SERIES = {"s": ("backward", "surface"), "b": ("backward", "rebound"), "r": ("exact", "rebound"),
-          "w": ("exact", "rewind"), "e": ("exact", "replay")}
+          "w": ("exact", "rewind"), "e": ("exact", "replay")}  # e: the truth, frame by frame
 TABLE_HEAD = """
         s: backward    b: backward       r: exact       w: exact       e: exact
           + surface      + rebound      + rebound       + rewind       + replay
@@ -400,7 +400,7 @@ Points = dict[str, list[tuple[float, float]]]  # letter: (error_m, cost_us) at e
 step_once = cache(step)  # all methods and cuts need the truth at the same moments
 
 def simulate(scene: Scene, fps: int, cut: int) -> Iterator[tuple[State, State]]:
-    """Run for SPAN_S; yield the car's state and the true one every 0.1 s, or each longer frame.
+    """Run for SPAN_S; yield the car's state and the true one, every 0.1 s or every longer frame.
 
     Where in a frame the car meets a wall is luck. So the frames are shifted: a run begins cut/9 of
     a frame late, at the true state of that moment.
@@ -458,7 +458,7 @@ def error_px(error_m: float) -> int:
     return round(8 * math.log10(min(max(error_m, 1e-6), 10) / 1e-6))
 
 def picture(points: Points, pixel_m: float) -> None:
-    """Print the points, like a film: time runs downwards, here in four rows to a power of ten."""
+    """Print the points as a film, with processor time downwards: four rows to a power of ten."""
     marks = [(round(4 * math.log10(us)), error_px(error_m), letter)
              for letter, series in points.items() for error_m, us in series]
     limit_px = error_px(pixel_m)
@@ -471,7 +471,7 @@ def picture(points: Points, pixel_m: float) -> None:
     print("    us    <= 1 um 10 um   0.1 mm  1 mm    1 cm    0.1 m   1 m     >= 10 m")
     for row in range(min(marks)[0], max(marks)[0] + 1):
         line = bytearray(b" " * 57)
-        paint(line, "|", limit_px)  # a wall, since on its left no film shows the error
+        paint(line, "|", limit_px)  # a wall: left of it no film need show the error
         for cost_px, column, letter in marks:
             if cost_px == row:
                 paint(line, letter if chr(line[column]) in f" |{letter}" else "+", column)
@@ -753,7 +753,7 @@ def obey(words: list[str]) -> int:
     if command not in COMMANDS:
         return film(scene, number, title, given)
     on_track = replace(scene, x_m=scene.to_track(scene.x_m))
-    beyond = "" if on_track == scene else "It starts beyond a wall; here, by every method, on it. "
+    beyond = "" if on_track == scene else "It starts beyond a wall; here all methods start on it. "
     heading = (f"{title}. {in_words(scene)} {beyond}The scene's own motion, correction and rate "
                f"do not matter. Each method runs for {SPAN_S} simulated seconds in nine cuts, the "
                "frames shifted by ninths of a frame: the worst counts.")
@@ -774,7 +774,7 @@ def main(argv: list[str] | None = None) -> int:
     except BadInput as fault:
         why: object = fault
     except OSError as fault:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # more would fail again
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # more output would fail
         if isinstance(fault, BrokenPipeError):  # the reader has seen enough, as in | head
             return 0
         if fault.errno == errno.EIO:  # the terminal has hung up

@@ -1,7 +1,6 @@
 """What chart and stability map print, and the same told plainly."""
 
 import io
-from collections.abc import Iterator
 from contextlib import redirect_stdout
 from dataclasses import replace
 from decimal import Decimal
@@ -56,23 +55,30 @@ def errors_m(example: str, letter: str) -> list[float]:
 
 
 @cache
+def truth(CR: float, fps: int, cut: int) -> list[State]:
+    """The true states at the samples of a fall from 2 m at 2 m/s^2, from 60-digit decimals."""
+    late_s, frames = cut / 9 / fps, max(1, fps // 10)
+    times_s = [Decimal(late_s + frame / fps) for frame in range(frames, 20 * fps + 1, frames)]
+    return [(float(x), float(v)) for x, v in states(Scene(x_m=2, a_mps2=-2, CR=CR), times_s)]
+
+
+@cache
 def told_plainly(motion: str, correction: str, CR: float, fps: int, cut: int) -> Samples:
-    """The samples of a fall from 2 m at 2 m/s^2, of which the true ones are 60-digit decimals."""
-    def run() -> Iterator[tuple[State, State]]:
-        dt_s, late_s, frames = 1 / fps, cut / 9 / fps, max(1, fps // 10)
-        x, v = 2 - late_s**2, -2 * late_s
-        times_s = [Decimal(late_s + frame / fps) for frame in range(frames, 20 * fps + 1, frames)]
-        for true_x, true_v in states(Scene(x_m=2, a_mps2=-2, CR=CR), times_s):
-            for _ in range(frames):
-                move = v * dt_s if motion == "forward" else (v - 2 * dt_s) * dt_s
-                x += v * dt_s - dt_s**2 if motion == "exact" else move
-                v -= 2 * dt_s
-                wall = min(max(x, 0.25), 2.2)
-                if x != wall:
-                    x = {"none": x, "surface": wall, "rebound": wall - CR * (x - wall)}[correction]
-                    v *= -CR
-            yield (x, v), (float(true_x), float(true_v))
-    return list(run())
+    """The samples of that fall by a method, told plainly."""
+    dt_s, late_s, frames = 1 / fps, cut / 9 / fps, max(1, fps // 10)
+    x, v = 2 - late_s**2, -2 * late_s
+    found = []
+    for true in truth(CR, fps, cut):
+        for _ in range(frames):
+            move = v * dt_s if motion == "forward" else (v - 2 * dt_s) * dt_s
+            x += v * dt_s - dt_s**2 if motion == "exact" else move
+            v -= 2 * dt_s
+            wall = min(max(x, 0.25), 2.2)
+            if x != wall:
+                x = {"none": x, "surface": wall, "rebound": wall - CR * (x - wall)}[correction]
+                v *= -CR
+        found.append(((x, v), true))
+    return found
 
 
 def letter_told_plainly(samples: Samples) -> str:
