@@ -169,7 +169,7 @@ def rewind(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) ->
     return (wall_m if is_beyond_again else x_m), v_mps
 
 CORRECTIONS = {"none": none, "surface": surface, "rebound": rebound, "rewind": rewind}
-EXACT_ONLY = ("rewind", "replay")  # replay, below, corrects no move: it replaces it
+EXACT_ONLY = ("rewind", "replay")  # replay, below, is no correction: it replaces the move
 
 def step(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> tuple[float, float, float | None]:
     """One frame of dt_s: move the car, settle any collision. Returns x_m, v_mps, mark_m.
@@ -190,7 +190,7 @@ def step(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> tuple[float, fl
     return free_m, free_mps, None
 
 def replay(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> State:
-    """Follow the exact motion from the frame's start, from wall to wall.
+    """Replace the move: follow the exact motion from the frame's start, from wall to wall.
 
     It is right for frames of any length, with several bounces (example 15) or infinitely many
     (example 12). The loop ends: after the first flight, each one crosses the whole track, which
@@ -290,7 +290,7 @@ def details_text(x_m: float, v_mps: float, fps: float, exact_m: float | None) ->
 def planned(scene: Scene) -> Iterator[tuple[float, float]]:
     """Yield how long each frame should last, and the target rate in FPS; the same in every run."""
     fps, jitter = scene.fps_target, scene.jitter
-    for frame in count(1):  # 0.618, the golden ratio's fraction, spreads the lengths evenly
+    for frame in count(1):  # 0.618, the golden ratio's fractional part, spreads the lengths evenly
         yield (1 + jitter * (2 * (0.618 * frame % 1) - 1)) / fps, fps
 
 def paced(scene: Scene, keys: Keys) -> Iterator[tuple[float, float]]:
@@ -468,7 +468,7 @@ def picture(points: Points, pixel_m: float) -> None:
     say("; ".join(f"{letter}: {' + '.join(method)}" for letter, method in SERIES.items())
         + "; +: several of them.")
     print(f"\n{'one drawn pixel |':>{limit_px + 11}}")
-    print("    us    <= 1 um 10 um   0.1 mm  1 mm    1 cm    0.1 m   1 m     >= 10 m")
+    print("    us    <=1 um  10 um   0.1 mm  1 mm    1 cm    0.1 m   1 m     >=10 m")
     for row in range(min(marks)[0], max(marks)[0] + 1):
         line = bytearray(b" " * 57)
         paint(line, "|", limit_px)  # a wall: left of it no film need show the error
@@ -571,7 +571,7 @@ def stability(scene: Scene, heading: str) -> None:
     print(f"\n{rates}\n")
     say("Each letter is the worst of nine cuts, X worst, - best; small: only some cuts are so bad. "
         "A higher rate need not be better: how far a wall is overshot is luck. At CR < 1, G mostly "
-        "means that the car does not come to rest. 1 % is of v^2/2 at the start + |a| * track.")
+        "means that the car does not come to rest. 1 % is of (v^2/2 at the start + |a| * track).")
     for letter, meaning in VERDICTS.items():
         print(f"{inked(letter)}  {meaning}")
 
@@ -714,7 +714,7 @@ def refusal(word: str) -> BadInput:
     near = near or [name for name in names if start and name.startswith(start)]
     hint = f"nearest: {names[near[0]]}" if near else "python airtrack.py -h lists all"
     return BadInput(f"unknown word {word!r}: it must be an EXAMPLE (whole number), a command, an "
-                    f"option or NAME=VALUE; {hint}")
+                    f"option or a setting (NAME=VALUE); {hint}")
 
 def parsed(words: list[str]) -> tuple[dict[str, str], dict[str, Any]]:
     """What the words give: EXAMPLE, command and options; and the settings that they change."""

@@ -111,7 +111,7 @@ EXAMPLES = {
         "Elastic, at only 10 FPS. The car moves by the formulas of kinematics, and each bounce is "
         "worked out at its own moment. So the car comes back to the start mark, the dot at 2 m, "
         "every time. In example 8, by Euler's method, it does not. To see the first bounce, in "
-        "frame 14, press p now and then s fourteen times."),
+        "frame 14, press p at once, then s fourteen times."),
     11: Example("The exact solution, irregular steps", EXACT | IRREGULAR,
         "Example 10 with the irregular frames of example 9. The exact solution does not depend on "
         "how the time is cut into frames, so the car comes back to the start mark all the same."),
@@ -119,8 +119,8 @@ EXAMPLES = {
         "CR": 0.8, "correction": "replay"},
         "Example 11, but the car keeps 80 % of its speed at each bounce. The bounces come faster "
         "and faster: infinitely many before t = 11.91 s, the Zeno point. Then the car is at rest. "
-        "A frame may hold many bounces, and one holds infinitely many: that takes replay. From "
-        "frame 110 of 122 on they are lower than a column: the car stands at the wall. Compare "
+        "A frame may hold many bounces, and one holds infinitely many: that takes replay. In the "
+        "last ten of 122 frames they are lower than a column: the car stands at the wall. Compare "
         "python airtrack.py 12 d correction=rewind: there it hops on for eight frames more."),
     13: Example("Forward Euler gains energy", {
         "x_m": 0.25, "v_mps": 2.48, "a_mps2": -2.0, "CR": 1.0, "motion": "forward",
@@ -156,14 +156,14 @@ EXAMPLES = {
     18: Example("A missed bounce", {
         "x_m": 0.65, "v_mps": 5.0, "a_mps2": -8.0, "CR": 1.0, "motion": "exact",
         "correction": "rewind", "fps_target": 4.0, "show_exact_mark": True},
-        "Watch the right wall in frame 3: the o has bounced off it, the * turns there untouched. "
+        "Watch the right wall in frame 3: the o has bounced off it, the * turned without a bounce. "
         "In frame 4 they are about 0.4 m apart. The move of frame 3 goes 1 cm beyond the wall and "
         "ends back on the track, so no collision is found: a missed event. Every solver that looks "
         "for a change of sign over a step misses some, and scipy's solve_ivp says so. With "
         "correction=replay the * stays on the o."),
 }
 OWN_SCENE = Example("Your own scene", {},
-    "Nothing moves the car until v_mps or a_mps2 is given. You can set the start, the pull, the "
+    "Between the walls only v_mps and a_mps2 move the car. You can set the start, the pull, the "
     "walls and the methods, and python airtrack.py -h lists all settings. For example: "
     "python airtrack.py 99 d x_m=1 v_mps=3 CR=0.9")
 

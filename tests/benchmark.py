@@ -86,16 +86,6 @@ def cost_s(scene: Scene, take: Callable[..., Any] = step) -> float:
     return min(repeat(run, number=1, repeat=7, timer=time.process_time)) / 20_000
 
 
-def steps() -> None:
-    """Steps of the same scene by three methods, and a step that does nothing."""
-    eight, ten = (Scene(**EXAMPLES[number].settings) for number in (8, 10))
-    backward_s, rewind_s, replay_s = cost_s(eight), cost_s(ten), cost_s(truth_of(ten))
-    nothing_s = cost_s(ten, take=lambda scene, x_m, v_mps, dt_s: (x_m, v_mps, None))
-    print(f"a step at 10 FPS: backward + rebound {backward_s * 1e6:.2f} us, exact + rewind "
-          f"{rewind_s / backward_s:.1f} times, exact + replay {replay_s / backward_s:.1f} times "
-          f"that, one that does nothing {nothing_s / backward_s:.0%} of it")
-
-
 def elsewhere() -> None:
     """The same 20 s by scipy's solve_ivp, which finds the walls as events."""
     try:
@@ -152,6 +142,5 @@ def rates() -> None:
 
 if __name__ == "__main__":
     film()
-    steps()
     elsewhere()
     rates()

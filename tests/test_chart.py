@@ -161,19 +161,15 @@ def test_a_row_is_out_before_the_next_is_measured_and_ctrl_c_ends_it_without_a_w
     assert capsys.readouterr().err == ""
 
 
-def test_a_clock_too_coarse_to_measure_is_no_fault(
-        monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
+def test_a_coarse_clock_and_a_series_without_any_error_are_no_fault(
+        tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
+    figure = airtrack.new_figure(".svg")
+    monkeypatch.setattr(airtrack, "new_figure", lambda _: figure)
     monkeypatch.setattr(airtrack, "CHART_FPS", (10, 30))
     monkeypatch.setattr("time.process_time", lambda: 1.0)
-    assert main(["chart"]) == 0
-    assert "\n  0.01    +" in capsys.readouterr().out
-
-
-def test_a_series_without_any_error_has_its_place_in_the_saved_picture(tmp_path: Path) -> None:
-    figure = airtrack.new_figure(".svg")
-    airtrack.save(figure, str(tmp_path / "c.svg"), {"e": [(0.0, 1.0), (0.0, 2.0)]}, 0.02, "")
-    curve, _ = figure.axes[0].lines
-    assert 0 < min(curve.get_xdata()) == max(curve.get_xdata()) < 1e-12
+    assert main(["chart", "99", "x_m=0.25", "a_mps2=-2", "--save", str(tmp_path / "c.svg")]) == 0
+    assert "\n  0.01    " in capsys.readouterr().out
+    assert 0 < figure.axes[0].get_lines()[-2].get_xdata()[0] < 1e-12
 
 
 def test_the_picture_has_each_point_at_its_place_and_a_wall_of_one_pixel(capsys: Capture) -> None:
@@ -183,7 +179,7 @@ def test_the_picture_has_each_point_at_its_place_and_a_wall_of_one_pixel(capsys:
         "w": [(1e-6, 10), (1e-4, 20), (1, 20)], "e": [(0, 1), (1e-15, 10), (1e-4, 20)]}, 0.01)
     assert capsys.readouterr().out.split("\n\n")[-1] == """\
                           one drawn pixel |
-    us    <= 1 um 10 um   0.1 mm  1 mm    1 cm    0.1 m   1 m     >= 10 m
+    us    <=1 um  10 um   0.1 mm  1 mm    1 cm    0.1 m   1 m     >=10 m
      1    e                               |                       r
    1.8                                    |
    3.2                                    |
@@ -248,6 +244,7 @@ SHORT = {"x_m": 0.5, "left_edge_m": 0.0, "right_edge_m": 1.0, "CR": 1.0, "correc
 @pytest.mark.parametrize(("settings", "fps", "letter"), [
     (EXAMPLES[13].settings, 10, "G"), (EXAMPLES[14].settings, 10, "X"),
     (EXAMPLES[15].settings, 10, "-"), (EXAMPLES[3].settings, 30, "S"),
+    (EXAMPLES[15].settings | {"correction": "rewind"}, 10, "X"),  # thrown through the walls
     (EXAMPLES[3].settings | {"a_mps2": -15.0}, 30, "X"),  # it sinks by more than the track
     (EXAMPLES[13].settings | {"m_to_px": 0.1}, 10, "-"),  # whatever the energy
     # k steps of 1 s gain or lose k a^2/2, in the mean of 16 to 20 steps 9 a^2, and 20 a is 1 %;

@@ -64,29 +64,16 @@ def test_these_come_to_rest_in_the_frame_that_their_text_says(
     if number in (1, 5):
         says(number, "70 %")
         assert EXAMPLES[number].settings["CR"] == 0.7
-    _, lines, ending = film(capsys, str(number), "d")
+    _, lines, ending = film(capsys, str(number), "d", "--frames", "9" * 20)
     assert len(lines) == frames
     assert details(lines[-1])[0] == x_m
     assert ending == (f"Stopped after {frames} frames, t = {t_s:.2f} s: "
                       "the car is at rest against a wall.")
 
 
-def test_example_3_sinks_to_minus_35_cm_in_600_frames(capsys: Capture) -> None:
-    _, lines, ending = film(capsys, "3", "d", "--frames", "600")
-    assert details(lines[-1])[0] == -0.35
-    assert ending == "Stopped after 600 frames, t = 20.00 s: that is the frame limit."
-
-
 def test_the_pauses_are_5_s_for_example_1_and_4_s_for_3_and_3_s_for_the_others() -> None:
     pauses_s = {number: example.pause_s for number, example in EXAMPLES.items()}
     assert (pauses_s.pop(1), pauses_s.pop(3), set(pauses_s.values())) == (5, 4, {3})
-
-
-def test_examples_9_11_and_12_are_irregular_and_no_others() -> None:
-    scenes = {number: Scene(**example.settings) for number, example in EXAMPLES.items()}
-    assert {n for n, scene in scenes.items() if scene.use_observed_dt} == {9, 11, 12}
-    assert {n: scene.jitter for n, scene in scenes.items() if scene.jitter} == {
-        9: 0.25, 11: 0.25, 12: 0.25}
 
 
 def test_examples_py_imports_nothing_from_airtrack_py() -> None:
@@ -120,6 +107,7 @@ def test_3_is_caught_in_frame_46_and_sinks_a_millimetre_a_frame(capsys: Capture)
     assert [x_m < 0.25 for x_m in xs].index(True) + 1 == 46
     assert all(x_m < 0.25 for x_m in xs[45:])
     assert (xs[99] - xs[599]) / 500 == pytest.approx(1e-3, rel=0.1)
+    assert round(xs[599], 2) == -0.35
     _, lines, _ = film(capsys, "3", "--frames", "300")
     assert [line.strip()[0] for line in lines[250:]] == ["*"] * 22 + ["<"] * 28
 
@@ -219,11 +207,10 @@ def test_12_rests_from_its_Zeno_point_on() -> None:
     scene = Scene(**EXAMPLES[12].settings)
     assert step(scene, 2.0, 0.0, 11.90)[1] != 0
     assert step(scene, 2.0, 0.0, 11.92)[:2] == (0.25, 0.0)
-    says(12, "From frame 110 of 122 on they are lower than a column")
-    for zoom in (55, 55 * 79 / 134):
-        columns = [round(x_m * zoom) for x_m, _, _ in states(12, 122)]
-        assert set(columns[109:]) == {round(0.25 * zoom)}
-        assert set(columns[104:]) != {round(0.25 * zoom)}
+    says(12, "In the last ten of 122 frames they are lower than a column")
+    for width_px in (80, 100, 120, 135):
+        columns = [round(x_m * 55 * (width_px - 1) / 134) for x_m, _, _ in states(12, 122)]
+        assert len(set(columns[-10:])) == 1 < len(set(columns[-40:]))
 
 
 def test_12_by_rewind_hops_on_for_eight_frames_more(capsys: Capture) -> None:
@@ -281,7 +268,10 @@ def test_17_is_exact_until_its_first_bounce_and_gains_energy_at_the_left_wall(
         if mark_m is not None:
             gained = 2 * (x_m - mark_m)
             assert gained > 0 if mark_m < 0.25 else gained <= 0
-    assert apart_m(beside_the_truth(16, 200, shift)) == pytest.approx(0.9, abs=0.05)
+    sixteen = beside_the_truth(16, 200, shift)
+    assert apart_m(sixteen[1:2]) == pytest.approx(0.02)
+    assert apart_m(sixteen) == pytest.approx(0.9, abs=0.05)
+    says(16, "2 cm apart in frame 2", "up to 0.9 m within 20 s")
     assert apart_m(beside_the_truth(17, 200, shift, correction="rewind")) < 1e-9
 
 
@@ -294,9 +284,8 @@ def test_18_misses_a_bounce_in_frame_3(shift: float) -> None:
     assert apart_m(found[:2]) < 1e-12
     assert found[2][0] - found[2][1] > 0.1  # the o is on its way back
     assert found[3][0] - found[3][1] == pytest.approx(0.4, abs=0.08)
-    v_mps = 5 * (1 + shift)
-    assert 0.65 + v_mps**2 / 16 - 2.2 == pytest.approx(0.01, abs=0.006)  # where the move turns
-    assert 0.5 < v_mps / 8 < 0.75  # and when: in frame 3
+    turn_m = 0.65 + (5 * (1 + shift)) ** 2 / 16
+    assert turn_m - 2.2 == pytest.approx(0.01, abs=0.006)
     assert apart_m(beside_the_truth(18, 80, shift, correction="replay")) < 1e-9
 
 
@@ -317,15 +306,6 @@ def test_15_creeps_a_tenth_of_a_metre_a_frame(capsys: Capture) -> None:
     assert all(0.25 <= x_m <= 2.2 for x_m in xs)
     assert sum(abs(b - a) == pytest.approx(0.1) for a, b in pairwise(xs)) > 550
     assert film(capsys, "15", "--frames", "600").ending.endswith("that is the frame limit.")
-
-
-def test_16_is_2_cm_off_in_frame_2_and_up_to_90_cm_within_20_s(capsys: Capture) -> None:
-    says(16, "2 cm apart in frame 2", "up to 0.9 m within 20 s")
-    lines = film(capsys, "16", "d", "--frames", "200").lines
-    assert lines[1].index("o") - lines[1].index("*") == 1
-    errors_m = [abs(float(line.split("err = ")[1])) for line in lines]
-    assert errors_m[1] == pytest.approx(0.02)
-    assert max(errors_m) == pytest.approx(0.9, abs=0.05)
 
 
 def test_the_exact_mark_is_where_kinematics_has_the_car(capsys: Capture) -> None:

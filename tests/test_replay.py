@@ -53,15 +53,6 @@ def test_agrees_with_the_decimal_reference_in_random_scenes_at_random_frame_rate
         assert error_m < 1e-9, scene
 
 
-@pytest.mark.parametrize("fps", [0.5, 1, 10, 60, 240, 1000])
-def test_agrees_with_the_decimal_reference_for_several_seconds_at_every_frame_rate(
-        fps: float) -> None:
-    rng = random.Random(f"rate {fps}")
-    for _ in range(20):
-        scene = random_scene(rng, fps)
-        assert largest_error_m(scene, 1 / fps, round(6 * fps)) < 1e-9, scene
-
-
 def test_one_frame_of_20_s_ends_where_200_frames_of_a_tenth_do() -> None:
     rng = random.Random("long frames")
     for _ in range(300):
@@ -122,6 +113,8 @@ def test_stays_finite_and_on_the_track_and_gains_no_energy_in_any_scene_nor_lose
     ({"right_edge_m": 5, "a_mps2": 2}, 2.0, -1.0, 1.0, (2.0, 1.0, None)),
     ({"a_mps2": 5e-324}, 1.0, 0.0, 0.1, (1.0, 0.0, None)),
     ({"a_mps2": -1e-300}, 1.0, 0.0, 0.1, (1.0, 0.0, None)),
+    # it bounced and is back, and its move alone ended on the track, too
+    ({"left_edge_m": 0, "right_edge_m": 10, "a_mps2": 2, "CR": 1}, 2.0, -3.0, 3.0, (6.0, 5.0, 2.0)),
     # CR = 0 ends a bounce on the wall
     ({"a_mps2": -1, "CR": 0}, 0.5, -1.0, 1.0, (0.25, 0.0, -1.0)),
     ({"CR": 0}, 0.5, -1.0, 1.0, (0.25, 0.0, -0.5)),
@@ -139,16 +132,6 @@ def test_frames_worked_out_by_hand(
     after_m, after_mps, mark_m = step(exact(**changes), x_m, v_mps, dt_s)
     assert (after_m, after_mps) == pytest.approx(found[:2], abs=1e-12)
     assert mark_m == pytest.approx(found[2], abs=1e-12)
-
-
-def test_a_car_that_met_a_wall_and_is_back_within_the_frame_is_marked() -> None:
-    # Free flight would take it to -0.05 m and back to x = 1.2 m; the wall at 0 turns it earlier.
-    scene = exact(left_edge_m=0, right_edge_m=5, x_m=0.2, v_mps=-1, a_mps2=2, CR=0.5)
-    x_m, _, mark_m = step(scene, 0.2, -1.0, 1.618)
-    free_m = 0.2 - 1.618 + 1.618**2
-    assert mark_m == pytest.approx(free_m)
-    assert x_m == pytest.approx(float(next(positions(scene, [Decimal("1.618")]))), abs=1e-12)
-    assert abs(x_m - free_m) > 0.1
 
 
 @pytest.mark.parametrize("fps", [0.5, 1, 3.3, 10, 30, 97, 240, 999, 1000])
@@ -177,30 +160,11 @@ def test_a_car_that_overshoots_by_more_than_round_off_hits(beyond_m: float) -> N
     assert x_m == pytest.approx(float(true_m), abs=1e-7)
 
 
-def test_a_frame_that_ends_at_the_wall_to_the_last_digit_does_not_end_beyond_it() -> None:
-    rng = random.Random("to the last digit")
-    for _ in range(2000):
-        scene = exact(x_m=rng.uniform(0.25, 2.2), v_mps=rng.uniform(0.1, 5),
-                      a_mps2=rng.uniform(0, 5), CR=rng.choice([0.5, 1.0]))
-        speed_mps = math.sqrt(scene.v_mps**2 + 2 * scene.a_mps2 * (2.2 - scene.x_m))
-        frame_s = 2 * (2.2 - scene.x_m) / (scene.v_mps + speed_mps)
-        for dt_s in (frame_s, frame_s * (1 - 1e-16), frame_s * (1 - 3e-16), frame_s * (1 + 3e-16)):
-            assert step(scene, scene.x_m, scene.v_mps, dt_s)[0] <= 2.2
-
-
 @pytest.mark.parametrize("v_mps", [1e-300, 1e-100, 1e-20])
 def test_a_hop_too_short_to_count_is_rest_whatever_CR(v_mps: float) -> None:
     for CR in (0.0, 0.5, 1 - 1e-12, 1.0):
         scene = exact(x_m=0.25, v_mps=v_mps, a_mps2=-2, CR=CR)
         assert step(scene, 0.25, v_mps, 2.0)[:2] == (0.25, 0.0)
-
-
-def test_elastic_hops_come_back_after_any_number_of_them() -> None:
-    scene = exact(x_m=0.25, v_mps=1e-3, a_mps2=-2, CR=1)  # a hop: 1 ms, up to 0.25 um
-    for hops in (1, 1000, 20_000):
-        x_m, v_mps, _ = step(scene, 0.25, 1e-3, (hops + 0.5) * 1e-3)
-        assert x_m == pytest.approx(0.25 + 1e-6 / 4, abs=1e-12)
-        assert v_mps == pytest.approx(0, abs=1e-11)
 
 
 @pytest.mark.parametrize("CR", [

@@ -7,11 +7,9 @@ from collections.abc import Callable
 from itertools import islice, pairwise
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 import examples
-from airtrack import Scene, main, planned, step, truth_of
+from airtrack import Scene, main, planned
 from clock import Clock, positions_m
 
 Capture = pytest.CaptureFixture[str]
@@ -93,19 +91,6 @@ def test_the_film_in_time_and_the_fast_one_have_the_same_frames(
         nominal_m = [1.1 + 0.1 * k for k in range(1, 31)]
         is_even = fast == pytest.approx(nominal_m, abs=0.0051)
         assert is_even is (not observed or jitter == 0)
-
-
-@given(jitter=st.floats(0, 0.9), v_mps=st.floats(-20, 20), a_mps2=st.floats(-20, 20),
-       CR=st.floats(0, 0.95) | st.just(1.0), fps=st.floats(1, 100))
-def test_the_exact_solution_does_not_depend_on_how_the_time_is_cut_into_frames(
-        jitter: float, v_mps: float, a_mps2: float, CR: float, fps: float) -> None:
-    scene = truth_of(Scene(v_mps=v_mps, a_mps2=a_mps2, CR=CR, fps_target=fps, jitter=jitter))
-    x_m, now_mps, t_s = scene.x_m, scene.v_mps, 0.0
-    for length_s, _ in islice(planned(scene), 100):
-        x_m, now_mps, _ = step(scene, x_m, now_mps, length_s)
-        t_s += length_s
-    # A graze that counts as a miss costs up to 9e-6 m.
-    assert x_m == pytest.approx(step(scene, scene.x_m, scene.v_mps, t_s)[0], abs=2e-5)
 
 
 # Stalls and the observed dt.
@@ -261,18 +246,6 @@ def test_ctrl_c_cuts_the_header_s_pause_short_and_a_diamond_says_so(
     assert diamond not in play("10 --frames 1")
 
 
-def test_on_a_terminal_the_pause_s_notice_fits_it_and_stands_only_until_the_run_goes_on(
-        monkeypatch: pytest.MonkeyPatch, play: Play) -> None:
-    monkeypatch.setattr("sys.stdout.isatty", lambda: True)
-    for columns in (40, 63, 64, 200):
-        monkeypatch.setenv("COLUMNS", str(columns))
-        out = play("99 fps_target=10", t4_05="p", t6="s", t7="x")
-        notices = re.findall("(paused after frame [^\r\n]*)\r( *)\r", out)
-        assert len(notices) == 2
-        for notice, blanks in notices:
-            assert len(notice) == len(blanks) == min(62, columns - 1)
-
-
 @pytest.mark.parametrize(("is_raw", "why_shut", "where"), [
     (True, "no", "in this terminal"), (False, "", "in the little window"),
     (True, "", "in the little window and in this terminal"), (False, "no", "")])
@@ -301,7 +274,9 @@ def test_the_keys_are_told_and_the_next_example_is_named_where_there_are_any(
 def test_a_narrow_terminal_shrinks_picture_and_zoom_together(
         columns: int, width_px: int, monkeypatch: pytest.MonkeyPatch, play: Play) -> None:
     monkeypatch.setenv("COLUMNS", str(columns))
+    assert play("10 d --fast --frames 1").splitlines()[-2].index("x =") == 135  # in a pipe
     monkeypatch.setattr("sys.stdout.isatty", lambda: True)
+    assert play("10 d m_to_px=0.001 --fast --frames 1")  # the least zoom
     out = play("10 d --fast --frames 40")
     lines = [line for line in out.splitlines() if "FPS =" in line]
     assert {line.index("x =") for line in lines} == {width_px}
@@ -314,14 +289,6 @@ def test_a_narrow_terminal_shrinks_picture_and_zoom_together(
     for words in ("d right_edge_m=20 m_to_px=6.7", "right_edge_m=2.43"):
         line = play(f"99 {words} --fast --frames 1").splitlines()[-2]
         assert line.partition("x =")[0][-1] == "|"
-
-
-def test_the_smallest_zoom_survives_the_narrowest_terminal_and_a_pipe_has_no_width(
-        monkeypatch: pytest.MonkeyPatch, play: Play) -> None:
-    monkeypatch.setenv("COLUMNS", "12")
-    assert play("10 d --fast --frames 1").splitlines()[-2].index("x =") == 135
-    monkeypatch.setattr("sys.stdout.isatty", lambda: True)
-    play("10 d m_to_px=0.001 --fast --frames 1")
 
 
 @pytest.mark.parametrize(("right_m", "width_px"), [
@@ -337,15 +304,10 @@ def test_a_wall_outside_the_picture_is_told_with_the_zoom_that_would_show_it(
     assert "|" in told
 
 
-@pytest.mark.parametrize(("words", "is_told"), [
-    ("left_edge_m=-1", True), ("left_edge_m=-0.01", True), ("left_edge_m=-0.009", False),
-    ("left_edge_m=0", False), ("", False)])
-def test_a_wall_to_the_left_of_the_picture_is_told(words: str, is_told: bool, play: Play) -> None:
-    out = play(f"99 {words} --fast --frames 1")
+@pytest.mark.parametrize(("left_m", "is_told"), [
+    (-1, True), (-0.01, True), (-0.009, False), (0, False), (0.25, False)])
+def test_a_wall_left_of_the_picture_is_told(left_m: float, is_told: bool, play: Play) -> None:
+    out = play(f"99 left_edge_m={left_m} --fast --frames 1")
     assert ("A wall is to the left of x = 0, where the picture begins" in out) is is_told
-    assert ("A wall" in out or "a wall" in out) is is_told
+    assert ("a wall" in out.lower()) is is_told
     assert ending(out) == "Stopped after 1 frame, t = 0.03 s: that is the frame limit."
-
-
-def test_a_frame_limit_may_have_twenty_digits(play: Play) -> None:
-    assert "Stopped after 251 frames" in play(f"1 --fast --frames {'9' * 20}")

@@ -60,8 +60,3 @@ def test_walls_are_at_least_a_centimetre_apart_round_off_aside() -> None:
         Scene(left_edge_m=left_m, right_edge_m=right_m)
         with pytest.raises(ValueError, match=r"^right_edge_m must be left_edge_m \+ 0.01"):
             Scene(left_edge_m=left_m + 1e-6, right_edge_m=right_m)
-
-
-def test_a_scene_cannot_be_changed() -> None:
-    with pytest.raises(AttributeError):
-        Scene().x_m = 2.0  # type: ignore[misc]

@@ -46,8 +46,7 @@ def test_each_step_changes_the_energy_by_the_law_of_its_method(
 #    the wall again and turns it inwards, so it moves inwards by some m and is turned back. Then
 #    the next move out is at most CR m - g dt^2 (backward), or CR m - (1 + CR) g dt^2/2 (exact):
 #    less than m, which it just lost. So with CR < 1 a car that does not get out at once never
-#    does. (Forward Euler may creep out again, by the energy that it gains; and where the
-#    acceleration leads off the wall, any motion may, while forward Euler sinks.)
+#    does. (Forward Euler may; and off the wall it is the other way round, as the next test shows.)
 
 @pytest.mark.parametrize("motion", ["backward", "exact"])
 @given(side=sides, inside=st.floats(0, 1), w_mps=st.floats(0.01, 50), g_mps2=st.floats(0, 50),
@@ -73,27 +72,18 @@ def test_without_correction_a_car_that_is_not_out_at_once_is_stuck_for_good(
         assert (side * x_m > 1) is (out_m < q_m)
 
 
-def test_forward_euler_may_creep_out_of_the_wall() -> None:
-    scene = Scene(motion="forward", correction="none", CR=0.48, a_mps2=-2.5, x_m=2.0)
-    (x_m, v_mps, _), beyond = (2.0, 0.0, None), []
-    for _ in range(63):
-        x_m, v_mps, _ = step(scene, x_m, v_mps, 1 / 20)
-        beyond.append(x_m < 0.25)
-    assert beyond[-39:] == [True] * 38 + [False]
-
-
-@pytest.mark.parametrize(("motion", "is_out"), [
-    ("forward", False), ("backward", True), ("exact", True)])
-def test_where_the_pull_leads_off_the_wall_a_car_may_creep_out_and_forward_euler_sinks(
-        motion: str, is_out: bool) -> None:
-    scene = Scene(motion=motion, correction="none", x_m=0.5, v_mps=-3, a_mps2=0.5, CR=0.3)
+@pytest.mark.parametrize(("motion", "a_mps2", "is_out"), [
+    ("forward", -0.5, True), ("backward", -0.5, False), ("exact", -0.5, False),
+    ("forward", 0.5, False), ("backward", 0.5, True), ("exact", 0.5, True)])
+def test_forward_creeps_out_against_a_pull_into_the_wall_and_the_others_with_one_off_it(
+        motion: str, a_mps2: float, is_out: bool) -> None:
+    scene = Scene(motion=motion, correction="none", x_m=0.5, v_mps=-3, a_mps2=a_mps2, CR=0.3)
     x_m, v_mps, depths_m = 0.5, -3.0, []
-    for _ in range(300):
+    for _ in range(600):
         x_m, v_mps, _ = step(scene, x_m, v_mps, 1 / 30)
         depths_m.append(0.25 - x_m)
-    assert max(depths_m) > 0
-    assert (depths_m[-1] <= 1e-4) is is_out
-    assert is_out or depths_m[-1] > depths_m[150] > depths_m[10]
+    assert min(depths_m[2:40]) > 0
+    assert depths_m[599] < 1e-3 if is_out else depths_m[599] > depths_m[300] > depths_m[60]
 
 
 # 3. The rebound's throw. It puts the car from overlap beyond a wall to CR overlap off it, so
@@ -195,11 +185,6 @@ def test_rewind_is_right_for_one_bounce_whose_move_ends_beyond_the_wall_and_wron
     else:
         assert mark_m is None
         assert side * v_mps == pytest.approx(s_mps + g_mps2 * rest_s)  # never turned round
-
-
-def test_rewind_at_a_step_longer_than_the_track_throws_the_car_through_the_walls() -> None:
-    scene = Scene(x_m=1.65, v_mps=40, CR=1, motion="exact", correction="rewind")
-    assert step(scene, 1.65, 40.0, 0.1)[0] == pytest.approx(2.2 - (5.65 - 2.2))
 
 
 @given(x_m=st.floats(-1000, 1000), v_mps=st.just(0.0) | speeds, a_mps2=st.just(0.0) | pulls,
