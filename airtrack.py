@@ -492,7 +492,7 @@ def save(figure: Any, file: str, points: Points, pixel_m: float, heading: str) -
     figure.suptitle(f"Speed against accuracy\n{textwrap.fill(heading, 84)}")
     axes = figure.add_subplot(
         xscale="log", yscale="log", xlabel=f"largest error in {SPAN_S} s (m): better to the left",
-        ylabel="processor time for a simulated second (\N{MICRO SIGN}s): better upwards")
+        ylabel="processor time for a simulated second (\N{MICRO SIGN}s):\nbetter upwards")
     axes.invert_yaxis()
     for letter, series in points.items():
         errors_m = [max(error_m, 1e-16) for error_m, _ in series]  # 0 has no logarithm
