@@ -210,7 +210,7 @@ def replay(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> State:
         # Go there, and bounce.
         t_s -= flight_s
         x_m, v_mps, g_mps2 = wall_m, -side * CR * s_mps, side * a_mps2
-        # v^2/(2 g) <= track, or a graze: too slow to reach the far wall, against a pull g.
+        # Against a pull g, too slow to reach the far wall: v^2/(2 g) <= track, or a graze more.
         if g_mps2 > 0 and v_mps * v_mps <= 2 * g_mps2 * (right_m - left_m + graze_m):
             t_s, v_mps = hops(v_mps, g_mps2, CR, t_s)
             break
