@@ -526,7 +526,7 @@ VERDICTS = {  # from the worst to the best
     "G": "gain: in the last 5 s over 1 % more energy than the true car, on average",
     "L": "loss: over 1 % less energy",
     "P": "energy within 1 %, but more than a drawn pixel off at some sample",
-    "-": "within a drawn pixel of the truth at every sample",
+    "-": "within a drawn pixel of the truth at every sample (every 0.1 s)",
 }
 
 def verdict(scene: Scene, fps: int, cut: int) -> str:
@@ -571,7 +571,7 @@ def stability(scene: Scene, heading: str) -> None:
     print(f"\n{rates}\n")
     say("Each letter is the worst of nine cuts, X worst, - best; small: only some cuts are so bad. "
         "A higher rate need not be better: how far a wall is overshot is luck. At CR < 1, G mostly "
-        "means that the car does not come to rest. 1 % is of (v^2/2 at the start + |a| * track).")
+        "means that the car does not come to rest. 1 %: of v^2/2 at start + |a| * track length.")
     for letter, meaning in VERDICTS.items():
         print(f"{inked(letter)}  {meaning}")
 
@@ -755,8 +755,8 @@ def obey(words: list[str]) -> int:
     on_track = replace(scene, x_m=scene.to_track(scene.x_m))
     beyond = "" if on_track == scene else "It starts beyond a wall; here all methods start on it. "
     heading = (f"{title}. {in_words(scene)} {beyond}The scene's own motion, correction and rate "
-               f"do not matter. Each method runs for {SPAN_S} simulated seconds in nine cuts, the "
-               "frames shifted by ninths of a frame: the worst counts.")
+               f"do not matter. Each method runs for {SPAN_S} simulated seconds nine times (cuts), "
+               "the frames shifted by ninths of a frame: the worst counts.")
     if command == "stability":
         stability(on_track, heading)
     else:

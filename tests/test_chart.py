@@ -43,7 +43,7 @@ def test_the_heading_says_what_is_measured_and_is_true(command: str, capsys: Cap
         return capsys.readouterr().out.split("\n\n", 1)
 
     heading, rest = told("4", "CR=0.5")
-    for part in ("Example 4", "CR=0.5", "x = 0.2 m", "20 simulated seconds", "in nine cuts",
+    for part in ("Example 4", "CR=0.5", "x = 0.2 m", "20 simulated seconds", "nine times (cuts)",
                  "starts beyond a wall; here all methods start on it",
                  "motion, correction and rate do not matter"):
         assert part in " ".join(heading.split())
