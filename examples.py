@@ -198,7 +198,7 @@ else:
     # Esc [M are older forms.) Only an Esc that nothing follows is the Esc key.
     SEQUENCE = re.compile(
         rb"\x1b+(\[M...|(O|\[(?!M)\[?)[0-?]*[ -/]*[@-~]|[]P].*?(\a|\x1b\\)|[^][OP\x1b])", re.DOTALL)
-    UNFINISHED = re.compile(rb"\x1b+[^\x1b]+")
+    UNFINISHED = re.compile(rb"\x1b+[^\x1b]+")  # its rest never came
 
     class Terminal:
         """The keys of a terminal, one by one, unechoed. It is touched from the foreground only."""

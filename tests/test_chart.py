@@ -253,7 +253,7 @@ SHORT = {"x_m": 0.5, "left_edge_m": 0.0, "right_edge_m": 1.0, "CR": 1.0, "correc
       for side in (-1, 1) for motion, a_mps2, letter in (
           ("forward", 2.25, "G"), ("forward", 2.2, "P"), ("backward", 2.25, "L"),
           ("backward", 2.2, "P"), ("forward", 0.0019, "P"), ("forward", 0.0017, "-"))),
-    # With v at the start 1 % of v^2/2 more.
+    # A starting v adds 1 % of v^2/2 to that.
     (LONG | {"v_mps": 30.0, "a_mps2": -2.45, "motion": "forward"}, 1, "G"),
     (LONG | {"v_mps": 30.0, "a_mps2": -2.4, "motion": "forward"}, 1, "P"),
     # From mid-track, one step of v ends v - 0.5 m beyond a wall; the last is so at both by turns.

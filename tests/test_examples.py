@@ -215,9 +215,10 @@ def test_12_rests_from_its_Zeno_point_on() -> None:
 
 def test_12_by_rewind_hops_on_for_eight_frames_more(capsys: Capture) -> None:
     says(12, "12 d correction=rewind: there it hops on for eight frames more")
-    frames, hopping = len(film(capsys, "12").lines), film(capsys, "12", "d", "correction=rewind")
+    resting, hopping = film(capsys, "12", "d"), film(capsys, "12", "d", "correction=rewind")
+    frames = len(resting.lines)
     assert len(hopping.lines) == frames + 8
-    assert details(film(capsys, "12", "d").lines[-1]) == (0.25, 0.0)
+    assert details(resting.lines[-1]) == (0.25, 0.0)
     assert all(details(line)[1] != 0 for line in hopping.lines[frames:])
 
 

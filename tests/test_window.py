@@ -73,8 +73,8 @@ class Film:
 
     def place(self) -> list[int]:
         """Left, top, width and height."""
-        place = self.screen.xdotool("getwindowgeometry", "--shell", self.window)
-        return [int(re.findall(f"{name}=([0-9]+)", place)[0])
+        geometry = self.screen.xdotool("getwindowgeometry", "--shell", self.window)
+        return [int(re.findall(f"{name}=([0-9]+)", geometry)[0])
                 for name in ("X", "Y", "WIDTH", "HEIGHT")]
 
     def face(self, margin_px: int = 0) -> Counter[tuple[int, int, int]]:
