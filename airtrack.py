@@ -10,7 +10,7 @@
     EXAMPLE      its number (see -h); default 0, for chart and stability 10
     d            details after each line: position, velocity, frame rate
     NAME=VALUE   a setting (see -h), on top of the example's own
-    --fast       no pacing, no pauses, no window for keys: for a pipe or a file
+    --fast       no pacing, no pauses, no keys: for a pipe or a file
     --frames N   stop after N frames; without it, after 50000
 """
 # Sections 1 to 5 are the lesson: read them from the top. examples.py has the examples and the keys.
@@ -56,9 +56,9 @@ class Scene:
     motion: str = setting("backward", "how the car is moved", ("forward", "backward", "exact"))
     correction: str = setting("rebound", "how a collision is settled",
                               ("none", "surface", "rebound", "rewind", "replay"))
-    fps_target: float = setting(30.0, "frames a second: sets step and pace", (0.1, 1000), "1/s")
-    use_observed_dt: bool = setting(False, "the time step follows the pace of the frame before")
-    jitter: float = setting(0.0, "part by which the pace (not the step) varies", (0, 0.9))
+    fps_target: float = setting(30.0, "frames a second; time step 1/fps_target", (0.1, 1000), "1/s")
+    use_observed_dt: bool = setting(False, "the step is the observed length of the frame before")
+    jitter: float = setting(0.0, "frames vary in length: 0.25 is by up to a quarter", (0, 0.9))
     auto_off: bool = setting(True, "stop when the car rests against a wall")
     m_to_px: float = setting(55.0, "zoom; a pixel is a character", (0.001, 1000), "px/m")
     width_px: int = setting(135, "width of the picture, which begins at x = 0", (10, 1000), "px")
@@ -113,59 +113,56 @@ MOTIONS = {"forward": forward, "backward": backward, "exact": exact}
 #     g              is an acceleration that pulls into the wall.
 
 def none(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
-    """Leave the car beyond the wall: a trap.
+    """Leave the car where it is: a trap.
 
-    Slowed by CR < 1, or pulled into the wall, the car may not be back on the track one frame later.
-    If so, v is reversed again, now into the wall. From there on each move out is shorter than the
-    move in before it: the car is stuck, and a pull into the wall makes it sink (example 3). Only
-    forward Euler may creep out, by the energy that it gains. Under a pull off the wall it is the
-    other way round: forward sinks, and the others may creep out.
+    Slowed by CR < 1, or pulled into the wall, it may not be out one frame later. Then v is reversed
+    once more, now into the wall. At CR < 1 the swings die down, until each frame begins at
+    CR g dt/(1 + CR) off the wall and ends at g dt/(1 + CR) into it. Forward Euler moves the car by
+    the first speed, and it creeps out; backward by the second, and it sinks by g dt^2/(1 + CR) a
+    frame (example 3's millimetre); exact by their mean. A pull off the wall reverses all signs.
     """
     return x_m, -CR * v_mps
 
 def surface(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Put the car on the wall, never beyond it, so that it is never stuck.
 
-    What is left of the frame after the bounce is lost: the car leaves the wall up to dt late. And
-    at CR = 1, at the wall that it is pulled to, it is lifted by overlap at an unchanged speed: E
-    gains g * overlap.
+    What is left of the frame after the bounce is lost: the car leaves the wall up to dt late.
     """
     return wall_m, -CR * v_mps
 
 def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
-    """Put the car CR * overlap off the wall: about as far as it has bounced back by now.
+    """Put the car CR * overlap off the wall. If nothing pulls at it, that is where it is by now.
 
-    Only about: it bounced at its speed s at the wall, but v is that of the frame's end. At CR = 1,
-    at the wall that it is pulled to, it is lifted by 2 * overlap at an unchanged speed: E gains
-    2 g * overlap, anything from 0 to about 2 g s dt. Backward Euler loses g^2 dt^2/2 in each of the
-    2 s/(g dt) frames of the flight to the next bounce, g s dt in all. So gain and loss cancel on
-    average, and the car wanders about the truth (examples 8 and 16). The exact motion loses
-    nothing, so E grows (example 17). With CR * overlap longer than the track, the car is thrown
-    through the far wall (example 14).
+    With CR * overlap longer than the track, it is thrown through the far wall (example 14).
     """
     overlap_m = x_m - wall_m
     return x_m - overlap_m * (1 + CR), -CR * v_mps
 
+def arrival(d_m: float, u_mps: float, g_mps2: float) -> tuple[float, float]:
+    """How long to a wall d ahead, and how fast there? Returns t_s, w_mps.
+
+    u_mps is the velocity, g_mps2 the acceleration, both towards the wall. There must be a way: the
+    first is positive, or the second.
+    """
+    # The speed w at the wall, from energy: w^2 = u^2 + 2 g d. (max: for round-off.)
+    w_mps = math.sqrt(max(0.0, u_mps * u_mps + 2 * g_mps2 * d_m))
+    # The time, from w = u + g t, or from the mean velocity: d = (u + w)/2 t. Each is used where it
+    # subtracts nothing: the difference of two nearly equal numbers is mostly round-off.
+    return (2 * d_m / (u_mps + w_mps) if u_mps > 0 else (w_mps - u_mps) / g_mps2), w_mps
+
 def rewind(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Go back to the wall, bounce there, and go on for as long as the car was beyond.
 
-    It goes both ways by the formulas of the exact motion, so it works with that motion only. It is
-    right for a frame that holds one bounce and whose move ends beyond the wall (example 10). It
-    cannot settle a second bounce. And where the pull has brought the car back to the track by the
-    frame's end, no collision is found: a missed event (example 18).
+    Both ways are the exact motion's, so it takes that motion. It is right for a frame that holds
+    one bounce and whose move ends beyond the wall (example 10). It cannot settle a second bounce.
+    And where the pull has brought the car back to the track by the frame's end, no collision is
+    found: a missed event (example 18).
     """
-    overlap_m = x_m - wall_m
-    # The velocity s at the wall, from energy: s^2 = v^2 - 2 a overlap. It has overlap's sign. (max:
-    # round-off may make s^2 negative. The 0.0 below is for a car that never was at the wall.)
-    s_mps = math.copysign(math.sqrt(max(0.0, v_mps**2 - 2 * a_mps2 * overlap_m)), overlap_m)
-    # The time t beyond, from the mean velocity: overlap = (s + v)/2 t. Where the pull has turned
-    # the car round, v is opposite to s, and s + v would cancel: there v = s + a t gives t.
-    if s_mps * v_mps > 0:
-        t_s = 2 * overlap_m / (s_mps + v_mps)
-    else:
-        t_s = (v_mps - s_mps) / a_mps2 if a_mps2 else 0.0
-    x_m, v_mps = exact(wall_m, -CR * s_mps, a_mps2, t_s)
-    is_beyond_again = (x_m - wall_m) * overlap_m > 0  # after a second bounce: leave it on the wall
+    # Backwards in time v changes its sign and a does not: the way back is an arrival at the wall.
+    side = math.copysign(1, x_m - wall_m)  # 1 beyond the right wall, -1 beyond the left one
+    t_s, w_mps = arrival(abs(x_m - wall_m), side * v_mps, -side * a_mps2)
+    x_m, v_mps = exact(wall_m, -side * CR * w_mps, a_mps2, t_s)
+    is_beyond_again = (x_m - wall_m) * side > 0  # after a second bounce: leave it on the wall
     return (wall_m if is_beyond_again else x_m), v_mps
 
 CORRECTIONS = {"none": none, "surface": surface, "rebound": rebound, "rewind": rewind}
@@ -183,74 +180,70 @@ def step(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> tuple[float, fl
         # A move that ends on the track can have been beyond a wall only if v has changed its sign.
         if is_beyond or v_mps * free_mps < 0:
             x_m, v_mps = replay(scene, x_m, v_mps, dt_s)
-            return x_m, v_mps, None if (x_m, v_mps) == (free_m, free_mps) else free_m
+            return x_m, v_mps, free_m if is_beyond or v_mps != free_mps else None
     elif is_beyond:
         correct = CORRECTIONS[scene.correction]
         return *correct(free_m, free_mps, on_track_m, scene.a_mps2, scene.CR), free_m
     return free_m, free_mps, None
 
+GRAZE_M = 5e-11  # far above the round-off of a position
+
 def replay(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> State:
     """Replace the move: follow the exact motion from the frame's start, from wall to wall.
 
     It is right for frames of any length, with several bounces (example 15) or infinitely many
-    (example 12). The loop ends: after the first flight, each one crosses the whole track, which
-    takes time, or hops begin, which are taken all at once.
+    (example 12). See a ball in a room: the pull is gravity, the wall that it pulls to is the floor
+    (without a pull, the left one), the other the ceiling, h the height. The loop ends: from the
+    floor the ball reaches the ceiling, which takes time, or it hops.
+
+    If it turns less than GRAZE_M behind the ceiling, that is a miss. For there an error of 1e-16 in
+    h would be one of 1e-8 in v. Each such miss is an error too, of up to 4 sqrt(room GRAZE_M) in
+    position, 4e-5 m by default.
     """
-    x_m, a_mps2, CR = scene.to_track(x_m), scene.a_mps2, scene.CR
-    left_m, right_m = scene.left_edge_m, scene.right_edge_m
-    graze_m = 1e-12 * (abs(left_m) + abs(right_m))  # well above the rounding of a position
+    up, floor_m = (-1, scene.right_edge_m) if scene.a_mps2 > 0 else (1, scene.left_edge_m)
+    room_m, g_mps2, CR = scene.right_edge_m - scene.left_edge_m, abs(scene.a_mps2), scene.CR
+    h_m, v_mps = up * (scene.to_track(x_m) - floor_m), up * v_mps
     t_s = dt_s  # what is left of the frame
-    while True:
-        # Which wall is next? arrival() counts towards the wall as positive.
-        to_left = (*arrival(x_m - left_m, -v_mps, -a_mps2, graze_m), -1, left_m)
-        to_right = (*arrival(right_m - x_m, v_mps, a_mps2, graze_m), 1, right_m)
-        flight_s, s_mps, side, wall_m = min(to_left, to_right)  # the sooner one
-        if flight_s > t_s:
-            break  # none within the frame
-        # Go there, and bounce.
-        t_s -= flight_s
-        x_m, v_mps, g_mps2 = wall_m, -side * CR * s_mps, side * a_mps2
-        # Against a pull g, too slow to reach the far wall: v^2/(2 g) <= track, or a graze more.
-        if g_mps2 > 0 and v_mps * v_mps <= 2 * g_mps2 * (right_m - left_m + graze_m):
+    while v_mps or g_mps2:  # otherwise it rests for good
+        if v_mps > 0 and v_mps * v_mps >= 2 * g_mps2 * (room_m - h_m + GRAZE_M):
+            # Rising, fast enough for the ceiling.
+            flight_s, w_mps = arrival(room_m - h_m, v_mps, -g_mps2)
+            bounced = room_m, -CR * w_mps
+        elif v_mps < 0 or h_m > 0:
+            # Falling, or above the floor, to which it will fall.
+            flight_s, w_mps = arrival(h_m, -v_mps, g_mps2)
+            bounced = 0.0, CR * w_mps
+        else:
+            # On the floor, and too slow for the ceiling.
             t_s, v_mps = hops(v_mps, g_mps2, CR, t_s)
             break
-    x_m, v_mps = exact(x_m, v_mps, a_mps2, t_s)
-    return scene.to_track(x_m), v_mps  # round-off must not leave it beyond a wall
-
-def arrival(d_m: float, u_mps: float, g_mps2: float, graze_m: float) -> tuple[float, float]:
-    """When, and how fast, does the car reach a wall d_m ahead? (t_s, s_mps); never: (inf, 0).
-
-    u_mps is its velocity, g_mps2 its acceleration, both towards the wall.
-    """
-    if u_mps <= 0 and g_mps2 <= 0:
-        return math.inf, 0.0
-    # The speed at the wall, from energy: s^2 = u^2 + 2 g d.
-    s_squared = u_mps * u_mps + 2 * g_mps2 * d_m
-    # If g < 0, the car turns s^2/(-2 g) beyond the wall (before it, where s^2 < 0). Up to graze_m
-    # beyond, it counts as a miss, lest an error of 1e-16 in s^2 become one of 1e-8 in s. The price:
-    # missing so slight a hit misplaces the car by up to 4 sqrt(d graze_m): 9e-6 m by default.
-    if s_squared < -2 * g_mps2 * graze_m:
-        return math.inf, 0.0
-    s_mps = math.sqrt(s_squared)
-    # t = (s - u)/g = 2 d/(u + s): the form in which nothing cancels.
-    return (2 * d_m / (u_mps + s_mps) if u_mps > 0 else (s_mps - u_mps) / g_mps2), s_mps
+        if flight_s > t_s:
+            break  # the frame ends in flight
+        t_s -= flight_s
+        h_m, v_mps = bounced
+    h_m, v_mps = exact(h_m, v_mps, -g_mps2, t_s)
+    return scene.to_track(floor_m + up * h_m), up * v_mps  # round-off must not leave it beyond
 
 def hops(v_mps: float, g_mps2: float, CR: float, t_s: float) -> tuple[float, float]:
-    """Take at once all whole hops that fit into t_s. Returns the time left, and v off the wall.
+    """Take at once all whole hops that fit into t_s. Returns the time left, and v off the floor.
 
-    Under a pull g the car hops for h = 2 v/g, then for CR h, CR^2 h, and so on. n hops last
-    h (1 + CR + ... + CR^(n-1)) = h (1 - CR^n)/(1 - CR), and infinitely many h/(1 - CR). Then comes
-    rest: that moment is the Zeno point. So any number of hops takes the same time to compute.
+    The first hop lasts T = 2 v/g, each next one CR times as long. All of them, infinitely many,
+    last T (1 + CR + CR^2 + ...) = T/(1 - CR). Then the ball is at rest: the Zeno point.
     """
-    h_s = 2 * abs(v_mps) / g_mps2
-    if h_s <= t_s * (1 - CR) or t_s + h_s == t_s:  # or a hop is too short to change t_s
+    hop_s = 2 * v_mps / g_mps2
+    if hop_s > t_s:  # not even one
+        return t_s, v_mps
+    if t_s + hop_s == t_s:  # too short to be told from 0
         return 0.0, 0.0
     if CR == 1:
-        return math.fmod(t_s, h_s), v_mps
-    # h (1 - CR^n)/(1 - CR) = t, solved for n. log1p(y) = log(1 + y) and expm1(y) = e^y - 1, without
-    # the rounding of 1 + y that would spoil them near CR = 1.
-    n = math.floor(math.log1p(-t_s * (1 - CR) / h_s) / math.log(CR))
-    n_hops_s = -h_s * math.expm1(n * math.log(CR)) / (1 - CR)
+        return math.fmod(t_s, hop_s), v_mps
+    zeno_s = hop_s / (1 - CR)
+    if zeno_s <= t_s:
+        return 0.0, 0.0
+    # n hops last zeno (1 - CR^n) = t, solved for n. log1p(y) is log(1 + y) and expm1(y) e^y - 1,
+    # without the rounding of 1 + y that would spoil them near CR = 1.
+    n = math.floor(math.log1p(-t_s / zeno_s) / math.log(CR))
+    n_hops_s = -zeno_s * math.expm1(n * math.log(CR))
     return max(0.0, t_s - n_hops_s), v_mps * CR**n  # max: round-off must not make it negative
 
 
@@ -279,10 +272,10 @@ def render_track(scene: Scene, x_m: float, mark_m: float | None = None,
     paint(line, mark, min(max(column, 0), last))  # after the walls, to be seen even there
     return line.decode()
 
-def details_text(x_m: float, v_mps: float, fps: float, exact_m: float | None) -> str:
-    """What d adds to a line: position, velocity, frame rate and, given exact_m, the error."""
+def details_text(x_m: float, v_mps: float, fps: float, true_m: float | None) -> str:
+    """What d adds to a line: position, velocity, frame rate and, given true_m, the error."""
     text = f"x = {x_m:6.2f}, v = {v_mps:5.2f}, FPS = {fps:3.0f}"
-    return text if exact_m is None else f"{text}, err = {x_m - exact_m:9.2e}"
+    return text if true_m is None else f"{text}, err = {x_m - true_m:9.2e}"
 
 
 # ==== 5. The run: the main loop =================================================================
@@ -294,11 +287,11 @@ def planned(scene: Scene) -> Iterator[tuple[float, float]]:
         yield (1 + jitter * (2 * (0.618 * frame % 1) - 1)) / fps, fps
 
 def paced(scene: Scene, keys: Keys) -> Iterator[tuple[float, float]]:
-    """At each frame's deadline yield how long the last frame took, and its rate; until a key quits.
+    """Yield, when a frame is due, the length that moves the car, and the observed rate in FPS.
 
-    A generator, as planned is, so that one loop serves both; what follows the yield runs when the
-    frame has been drawn. The deadlines are absolute: a sleep of dt after each frame would make
-    it longer by what computing, printing and oversleeping take.
+    That length is the last frame's or, after a pause or a stall, what it should have been: no leap.
+    Deadlines are absolute: a sleep of dt after each frame would add what computing and printing
+    take. A key that quits ends the frames.
     """
     began_s = deadline_s = time.perf_counter() - 1 / scene.fps_target  # so the first is due at once
     for due_s, _ in planned(scene):
@@ -307,11 +300,10 @@ def paced(scene: Scene, keys: Keys) -> Iterator[tuple[float, float]]:
         if keys.why_quit:
             return
         now_s = time.perf_counter()
-        length_s = due_s if was_paused else now_s - began_s
+        took_s = now_s - began_s
+        is_stall = took_s > max(0.15, 1.5 * due_s)  # visibly long: a dragged window, say
+        yield due_s if was_paused or is_stall else took_s, 1 / took_s
         began_s = now_s
-        # Visibly long, and over 1.5 times as long as due: a stall (a dragged window). Yield 0.
-        is_stall = length_s > max(0.15, 1.5 * due_s)
-        yield 0.0 if is_stall else length_s, 1 / length_s
         if now_s > deadline_s + due_s:  # late by a whole frame: do not race to catch up
             deadline_s = now_s
 
@@ -319,41 +311,43 @@ def truth_of(scene: Scene) -> Scene:
     """The scene by the exact solution, which has to start on the track."""
     return replace(scene, motion="exact", correction="replay", x_m=scene.to_track(scene.x_m))
 
-def is_at_rest(scene: Scene, recent_m: deque[float]) -> bool:
-    """Whether the car is on average at the wall that it is pulled to; without a pull, at either."""
+def is_at_rest(scene: Scene, v_mps: float, recent_m: deque[float]) -> bool:
+    """Whether a wall holds the car: the one that it is pulled to or, without a pull, either.
+
+    By its mean position, as Euler's car that leans on a wall never has v = 0. Without a pull v must
+    be 0 as well: a slow car leaves the wall again.
+    """
     mean_m = sum(recent_m) / len(recent_m)
     is_left = scene.a_mps2 <= 0 and abs(mean_m - scene.left_edge_m) <= 0.001
     is_right = scene.a_mps2 >= 0 and abs(mean_m - scene.right_edge_m) <= 0.001
-    return len(recent_m) == recent_m.maxlen and (is_left or is_right)
+    is_held = scene.a_mps2 != 0 or v_mps == 0
+    return len(recent_m) == recent_m.maxlen and is_held and (is_left or is_right)
 
-def run(scene: Scene, details: bool, limit: int, keys: Keys | None,
-        coloured: Callable[[str], str]) -> None:
-    """Film the scene until a key, the car at rest or the limit ends it, and say which it was."""
+def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None:
+    """Film the scene until a key, the car at rest or max_frames ends it, and say which it was."""
     truth = truth_of(scene)
     x_m, v_mps = scene.x_m, scene.v_mps
-    exact_m, exact_mps = (truth.x_m if scene.show_exact_mark else None), truth.v_mps
+    true_m, true_mps = (truth.x_m if scene.show_exact_mark else None), truth.v_mps
     recent_m = deque[float](maxlen=max(10, round(scene.fps_target / 3)))  # 1/3 s, at least 10
     frame, t_s = 0, 0.0
     why = "that is the frame limit"
     beats = paced(scene, keys) if keys else planned(scene)
-    for frame, (length_s, fps) in enumerate(islice(beats, limit), start=1):
-        # Move and settle; after a stall hold still.
-        mark_m = None
-        if length_s:
-            dt_s = length_s if scene.use_observed_dt else 1 / scene.fps_target
-            t_s += dt_s
-            x_m, v_mps, mark_m = step(scene, x_m, v_mps, dt_s)
-            if exact_m is not None:
-                exact_m, exact_mps, _ = step(truth, exact_m, exact_mps, dt_s)
-        # Draw.
-        line = coloured(render_track(scene, x_m, mark_m, exact_m))
-        text = details_text(x_m, v_mps, fps, exact_m) if details else ""
-        sys.stdout.write(f"{line}{text}\n")
+    for frame, (length_s, fps) in enumerate(islice(beats, max_frames), start=1):
+        # Move and settle.
+        dt_s = length_s if scene.use_observed_dt else 1 / scene.fps_target
+        t_s += dt_s
+        x_m, v_mps, mark_m = step(scene, x_m, v_mps, dt_s)
+        if true_m is not None:
+            true_m, true_mps, _ = step(truth, true_m, true_mps, dt_s)
+        # Draw, in colours where somebody watches.
+        line = render_track(scene, x_m, mark_m, true_m)
+        text = details_text(x_m, v_mps, fps, true_m) if details else ""
+        sys.stdout.write(f"{inked(line) if keys else line}{text}\n")
         if keys:
-            keys.shown(frame, t_s)
+            keys.count(frame, t_s)
         # At rest?
         recent_m.append(x_m)
-        if scene.auto_off and is_at_rest(scene, recent_m):
+        if scene.auto_off and is_at_rest(scene, v_mps, recent_m):
             why = "the car is at rest against a wall"
             break
     why = (keys.why_quit if keys else "") or why
@@ -403,17 +397,17 @@ def simulate(scene: Scene, fps: int, cut: int) -> Iterator[tuple[State, State]]:
     """Run for SPAN_S; yield the car's state and the true one, every 0.1 s or every longer frame.
 
     Where in a frame the car meets a wall is luck. So the frames are shifted: a run begins cut/9 of
-    a frame late, at the true state of that moment.
+    a frame after the start, at the true state of that moment.
     """
     truth = truth_of(scene)
-    late_s = cut / CUTS / fps
+    shift_s = cut / CUTS / fps
     frames_a_sample = max(1, fps // 10)
-    x_m, v_mps, _ = step(truth, truth.x_m, truth.v_mps, late_s)
+    x_m, v_mps, _ = step(truth, truth.x_m, truth.v_mps, shift_s)
     for frame in range(frames_a_sample, SPAN_S * fps + 1, frames_a_sample):
         for _ in range(frames_a_sample):
             x_m, v_mps, _ = step(scene, x_m, v_mps, 1 / fps)
         true_m, true_mps, _ = step_once(truth, truth.x_m, truth.v_mps, frame / fps)
-        yield (x_m, v_mps), step(truth, true_m, true_mps, late_s)[:2]
+        yield (x_m, v_mps), step(truth, true_m, true_mps, shift_s)[:2]
 
 def cost_us(scene: Scene, fps: int) -> float:
     """Processor time of the bare steps for a simulated second, the best of several runs."""
@@ -428,7 +422,7 @@ def two_digits(us: float) -> str:
     return f"{float(f'{us:.1e}'):g}"
 
 def first_within(series: list[tuple[float, float]], pixel_m: float) -> str:
-    """The lowest rate from which on a series stays within a pixel, and its cost."""
+    """From which rate on a series stays within a pixel, and what that rate costs."""
     for index, fps in enumerate(CHART_FPS):
         if max(error_m for error_m, _ in series[index:]) <= pixel_m:
             return f"{fps:5} FPS{two_digits(series[index][1]):>6}"
@@ -448,8 +442,9 @@ def table(scene: Scene) -> Points:
             points[letter].append((error_m, us))
             row += f"{error_m:9.1e}{two_digits(us):>6}"
         print(row, flush=True)
-    print(f"Within a pixel ({1000 / scene.m_to_px:.3g} mm) in all cuts: lowest rate, and its us")
-    cells = (first_within(series, 1 / scene.m_to_px) for series in points.values())
+    pixel_m = 1 / scene.m_to_px
+    print(f"Within a pixel ({1000 * pixel_m:.3g} mm) in all cuts: from which rate on, and its us")
+    cells = (first_within(series, pixel_m) for series in points.values())
     print(f"    {''.join(cells)}\n")
     return points
 
@@ -461,17 +456,17 @@ def picture(points: Points, pixel_m: float) -> None:
     """Print the points as a film, with processor time downwards: four rows to a power of ten."""
     marks = [(round(4 * math.log10(us)), error_px(error_m), letter)
              for letter, series in points.items() for error_m, us in series]
-    limit_px = error_px(pixel_m)
+    wall_px = error_px(pixel_m)
     say("To the right: largest error, sampled every 0.1 s. Downwards: processor time for a "
         "simulated second, in us (microseconds). The best are in the upper left. Right of the | "
         "the error is more than a drawn pixel, and a film shows it.")
     say("; ".join(f"{letter}: {' + '.join(method)}" for letter, method in SERIES.items())
         + "; +: several of them.")
-    print(f"\n{'one drawn pixel |':>{limit_px + 11}}")
+    print(f"\n{'one drawn pixel |':>{wall_px + 11}}")
     print("    us    <=1 um  10 um   0.1 mm  1 mm    1 cm    0.1 m   1 m     >=10 m")
     for row in range(min(marks)[0], max(marks)[0] + 1):
         line = bytearray(b" " * 57)
-        paint(line, "|", limit_px)  # a wall: left of it no film need show the error
+        paint(line, "|", wall_px)  # a wall: left of it no film need show the error
         for cost_px, column, letter in marks:
             if cost_px == row:
                 paint(line, letter if chr(line[column]) in f" |{letter}" else "+", column)
@@ -532,20 +527,20 @@ VERDICTS = {  # from the worst to the best
 def verdict(scene: Scene, fps: int, cut: int) -> str:
     """The letter of one run: of X, S, -, G, L and P, the first that fits. W takes several runs."""
     states = list(simulate(scene, fps, cut))
-    late = states[len(states) * 3 // 4:]  # the last 5 s of 20
+    last = states[len(states) * 3 // 4:]  # 5 s of 20
     beyond_m = [x_m - scene.to_track(x_m) for (x_m, _), _ in states]
     track_m = scene.right_edge_m - scene.left_edge_m
     if max(map(abs, beyond_m)) > track_m:
         return "X"
-    if min(beyond_m[-len(late):]) > 0 or max(beyond_m[-len(late):]) < 0:
+    if min(beyond_m[-len(last):]) > 0 or max(beyond_m[-len(last):]) < 0:
         return "S"
     if max(abs(x_m - true_m) for (x_m, _), (true_m, _) in states) <= 1 / scene.m_to_px:
         return "-"
     # E = v^2/2 - a x, as in section 2. 1 % is of v^2/2 at the start and |a| times the track.
     gain = sum((v_mps**2 - true_mps**2) / 2 - scene.a_mps2 * (x_m - true_m)
-               for (x_m, v_mps), (true_m, true_mps) in late) / len(late)
-    limit = 0.01 * (scene.v_mps**2 / 2 + abs(scene.a_mps2) * track_m)
-    return "G" if gain > limit else "L" if gain < -limit else "P"
+               for (x_m, v_mps), (true_m, true_mps) in last) / len(last)
+    one_percent = 0.01 * (scene.v_mps**2 / 2 + abs(scene.a_mps2) * track_m)
+    return "G" if gain > one_percent else "L" if gain < -one_percent else "P"
 
 def cell(found: set[str]) -> str:
     """One letter for nine verdicts: the worst, or its small letter where not all are so bad."""
@@ -607,7 +602,8 @@ def check(scene: Scene) -> None:
             raise BadInput(f"{row.name} must be {noun}{allowed_text(row)}, not {value!r}")
     left_m, right_m = scene.left_edge_m, scene.right_edge_m
     if round(right_m - left_m, 9) < 0.01:  # 2.21 - 2.2 is a bit less
-        raise BadInput(f"right_edge_m must be left_edge_m + 0.01 or more, not {right_m}")
+        raise BadInput("right_edge_m must be at least 0.01 m to the right of left_edge_m, not "
+                       f"{right_m} and {left_m}")
     if scene.correction in EXACT_ONLY:
         with_it = f"with correction={scene.correction}"
         if scene.motion != "exact":
@@ -643,8 +639,8 @@ def method_in_words(scene: Scene) -> str:
 
 def fitted(scene: Scene, details: bool) -> Scene:
     """The scene with picture and zoom shrunk together until line and details fit the terminal."""
-    exact_m = 0.0 if scene.show_exact_mark else None
-    widest = details_text(-9999.99, -99.99, scene.fps_target, exact_m) if details else ""
+    true_m = 0.0 if scene.show_exact_mark else None
+    widest = details_text(-9999.99, -99.99, scene.fps_target, true_m) if details else ""
     columns = shutil.get_terminal_size().columns - len(widest)
     if columns >= scene.width_px or not sys.stdout.isatty():
         return scene
@@ -667,9 +663,9 @@ def film(scene: Scene, number: int, title: str, options: dict[str, str]) -> int:
     """Print the header, leave time to read it, and run."""
     example = EXAMPLES.get(number, OWN_SCENE)
     details = "d" in options or example.details
-    limit = value_of(int, options.get("--frames", "50000"))
-    if not isinstance(limit, int) or limit < 1:
-        raise BadInput(f"--frames N must be a whole number from 1 up, not {limit!r}")
+    max_frames = value_of(int, options.get("--frames", "50000"))
+    if not isinstance(max_frames, int) or max_frames < 1:
+        raise BadInput(f"--frames N must be a whole number from 1 up, not {max_frames!r}")
     say(f"{title}.")
     say(f"{in_words(scene)} {method_in_words(scene)}")
     if number in EXAMPLES and scene != Scene(**example.settings):
@@ -683,8 +679,8 @@ def film(scene: Scene, number: int, title: str, options: dict[str, str]) -> int:
                 say(paragraph)
             keys.leave_time(example.pause_s)
         print(flush=True)
-        run(view, details, min(limit, sys.maxsize), keys, inked if keys else str)
-        if keys and keys.places() and {number, number + 1} <= EXAMPLES.keys():
+        run(view, details, min(max_frames, sys.maxsize), keys)
+        if keys and keys.where() and not keys.status and {number, number + 1} <= EXAMPLES.keys():
             print(f"Next: python airtrack.py {number + 1}")
         return keys.status if keys else 0
 
@@ -707,7 +703,7 @@ def value_of(kind: Callable[[str], object], text: str) -> object:
 
 def refusal(word: str) -> BadInput:
     """The error for an unknown word, with the nearest name."""
-    names = {name.lower(): name for name in ("--help", *COMMANDS, *OPTIONS)}
+    names = {name.lower(): name for name in ("--help", *COMMANDS, *OPTIONS) if name != "d"}
     names |= {name.lower(): f"{name}=VALUE" for name in SETTINGS}
     start = word.partition("=")[0].lower()
     near = difflib.get_close_matches(start, names, n=1)
@@ -747,7 +743,10 @@ def obey(words: list[str]) -> int:
         if OPTIONS[option] != command:
             raise BadInput(f"{option} is for {OPTIONS[option]}, not for {command}")
     example = EXAMPLES.get(number, OWN_SCENE)
-    scene = Scene(**example.settings | changes)
+    settings = dict(example.settings)
+    if command in COMMANDS:  # they run all methods; the example's own might not suit the changes
+        settings.pop("correction", None)
+    scene = Scene(**settings | changes)
     title = f"Example {number}: {example.title}" if number in EXAMPLES else example.title
     title += "".join(f", {name}={value}" for name, value in changes.items())
     if command not in COMMANDS:

@@ -7,8 +7,8 @@ shows. The keys work in a little pygame window and in the terminal, whichever ha
 from __future__ import annotations
 
 import contextlib
+import math
 import os
-import re
 import shutil
 import signal
 import sys
@@ -170,6 +170,8 @@ OWN_SCENE = Example("Your own scene", {},
 
 # ==== The terminal's keys =======================================================================
 
+ESC = "\x1b"  # a key of the window only: a terminal's arrows begin with it too
+
 if sys.platform == "win32":
     class Terminal:
         """The keys of a Windows console, which msvcrt gives one by one and unechoed."""
@@ -183,7 +185,7 @@ if sys.platform == "win32":
                 key = msvcrt.getwch()
                 if key in "\x00\xe0":
                     msvcrt.getwch()  # the second half of an arrow or a function key
-                else:
+                elif key != ESC:
                     keys += key
             return keys
 
@@ -193,13 +195,6 @@ if sys.platform == "win32":
         give_back = take
 
 else:
-    # What a terminal sends that is no character (ECMA-48): Esc and a character for Alt, Esc O ...
-    # for F1, Esc [ ... for an arrow or a mouse report, Esc P or ] ... for a late reply. (Esc [[ and
-    # Esc [M are older forms.) Only an Esc that nothing follows is the Esc key.
-    SEQUENCE = re.compile(
-        rb"\x1b+(\[M...|(O|\[(?!M)\[?)[0-?]*[ -/]*[@-~]|[]P].*?(\a|\x1b\\)|[^][OP\x1b])", re.DOTALL)
-    UNFINISHED = re.compile(rb"\x1b+[^\x1b]+")  # its rest never came
-
     class Terminal:
         """The keys of a terminal, one by one, unechoed. It is touched from the foreground only."""
 
@@ -214,36 +209,34 @@ else:
                 return False
 
         def take(self) -> None:
-            """Get keys without Enter and echo, and Ctrl-S too; again at each look, as after fg."""
+            """Get keys one by one, unechoed, and Ctrl-S too; again at each look, as after fg."""
             self.is_raw = self.is_in_foreground()
             with contextlib.suppress(termios.error):  # it may have gone just now
                 if self.is_raw:
                     mode = termios.tcgetattr(0)
-                    self.found = self.found or list(mode)
+                    self.found = self.found or termios.tcgetattr(0)
                     mode[0] &= ~termios.IXON
                     mode[3] &= ~(termios.ICANON | termios.ECHO)
+                    mode[6][termios.VMIN], mode[6][termios.VTIME] = 1, 0
                     termios.tcsetattr(0, termios.TCSANOW, mode)
 
         def give_back(self) -> None:
-            """Leave the terminal as it was found."""
+            """Leave the terminal as it was found. The next look finds it anew."""
             if self.found and self.is_in_foreground():
                 with contextlib.suppress(termios.error):
                     termios.tcsetattr(0, termios.TCSANOW, self.found)
+                self.found = None
 
         def read(self) -> str:
-            """The keys pressed since the last call, as characters."""
-            self.take()
-            keys = SEQUENCE.sub(b"", self.piece(0.0))
-            while b"\x1b" in keys and (rest := self.piece(0.05)):  # of a sequence, or other keys
-                keys = SEQUENCE.sub(b"", keys + rest)
-            return UNFINISHED.sub(b"", keys).decode("ascii", "ignore")
+            """The keys pressed since the last call, up to an Esc, as characters.
 
-        def piece(self, wait_s: float) -> bytes:
-            """What there is to read, now or within wait_s; b"" if nothing comes."""
+            An arrow, a mouse report or a late reply begins with Esc, and may hold any letter.
+            """
+            self.take()
             with contextlib.suppress(OSError):  # not open for reading, or gone
-                if self.is_raw and select.select([0], [], [], wait_s)[0]:
-                    return os.read(0, 1024)
-            return b""
+                if self.is_raw and select.select([0], [], [], 0)[0]:
+                    return os.read(0, 65536).decode("ascii", "ignore").partition(ESC)[0]
+            return ""
 
 
 # ==== The window's keys =========================================================================
@@ -254,6 +247,7 @@ class Window:
     """The little pygame window. Without pygame or a display it stays shut; why_shut says why."""
 
     why_shut = "it was not opened"
+    words = ""  # on its face
     pygame: Any
 
     def open(self) -> None:
@@ -286,9 +280,10 @@ class Window:
 
     def show(self, is_paused: bool) -> None:
         """Say on the window's face and in its caption what the keys do now."""
-        if not self.why_shut:
-            state, p_does = ("PAUSED", "resume") if is_paused else ("running", "pause")
-            words = f"{state}   p: {p_does}   s: step   x: quit"
+        state, p_does = ("PAUSED", "resume") if is_paused else ("running", "pause")
+        words = f"{state}   p: {p_does}   s: step   x: quit"
+        if not self.why_shut and words != self.words:
+            self.words = words
             self.pygame.display.set_caption(" ".join(words.split()))
             surface = self.pygame.display.get_surface()
             surface.fill("darkorange" if is_paused else "white")
@@ -322,9 +317,10 @@ class Window:
 
 # ==== Both together, and the signals ============================================================
 
-QUIT_KEYS = {"x": "x was pressed", "\x1b": "Esc was pressed",
-             WINDOW_CLOSED: "the window was closed"}
-CTRL_C, CTRL_S = "\x03", "\x13"
+QUIT_KEYS = {"x": "x was pressed", ESC: "Esc was pressed", WINDOW_CLOSED: "the window was closed"}
+PAUSE_KEYS = ("p", "\x13")  # Ctrl-S
+CTRL_C = "\x03"
+BEGIN_KEYS = ("\r", "\n", CTRL_C)
 SLICE_S = 0.05  # how long a key or a signal waits for an answer, at most
 SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP", "SIGQUIT", "SIGTSTP")  # Windows has only the first two
 
@@ -334,14 +330,14 @@ class Keys:
     def __init__(self) -> None:
         self.why_quit, self.status = "", 0  # why the run is to end, and its exit status then
         self.frame, self.t_s = 0, 0.0  # how far the film is
-        self.is_paused, self.steps = False, 0  # steps: frames to show although it is paused
-        self.is_reading = True  # the header, which Ctrl-C cuts short
+        self.to_show = math.inf  # frames before it is held: all, or, while paused, the steps
+        self.begun_by = ""  # the key that began the film, or the clock
         self.is_suspending = False  # Ctrl-Z was pressed
-        self.notice = ""  # that the run is paused, while it stands on the screen
+        self.pause_line = ""  # that the run is paused, while it stands on the screen
         self.terminal, self.window = Terminal(), Window()
 
-    def note(self, number: int, _: object) -> None:
-        """Only note a signal, for the next look, so that nothing raises in mid-action."""
+    def on_signal(self, number: int, _: object) -> None:
+        """Leave a signal to the next look, so that nothing raises in mid-action."""
         name = signal.Signals(number).name
         if name == "SIGINT":
             self.press(CTRL_C)
@@ -350,19 +346,18 @@ class Keys:
         else:
             self.quit(name, 128 + number)
 
-    def places(self) -> list[str]:
-        """Where there are keys."""
+    def where(self) -> str:
+        """Where keys work; nothing where they do not."""
         window = [] if self.window.why_shut else ["in the little window"]
-        return window + (["in this terminal"] if self.terminal.is_raw else [])
+        return " and ".join(window + ["in this terminal"] * self.terminal.is_raw)
 
     def help(self, pause_s: float) -> Iterator[str]:
         """What to press, and where, in paragraphs."""
-        where = " and ".join(self.places())
         if self.window.why_shut:
             yield f"No window for the keys: {self.window.why_shut}."
-        if where:
-            yield f"Keys, {where}: p or Ctrl-S pauses, s steps one frame further, x or Esc quits."
-        hint = "p to hold this text, Ctrl-C to begin" if where else "Ctrl-C to begin, then to quit"
+        if self.where():
+            yield f"Keys, {self.where()}: p or Ctrl-S pauses, s steps one frame further, x quits."
+        hint = "p to hold this text, Enter to begin" if self.where() else "Ctrl-C to begin"
         yield f"The film begins in {pause_s:g} s; press {hint}."
 
     def look(self) -> None:
@@ -371,22 +366,21 @@ class Keys:
             self.suspend()
         for key in [*self.terminal.read(), *self.window.read()]:
             self.press(key)
+        self.window.show(self.to_show < math.inf)
 
     def press(self, key: str) -> None:
         """Act on a key."""
         key = key.lower()
-        if key in ("p", CTRL_S):
-            self.is_paused, self.steps = not self.is_paused, 0
+        if key in PAUSE_KEYS:
+            self.to_show = 0 if self.to_show == math.inf else math.inf
         elif key == "s":
-            self.is_paused, self.steps = True, self.steps + 1
+            self.to_show = 1 if self.to_show == math.inf else self.to_show + 1
         elif key in QUIT_KEYS:
             self.quit(QUIT_KEYS[key])
-        elif key == CTRL_C and self.is_reading:
-            self.is_reading = False
+        elif key in BEGIN_KEYS and not self.begun_by:
+            self.begun_by, self.to_show = key, math.inf
         elif key == CTRL_C:
             self.quit("Ctrl-C was pressed")
-        if key in ("p", CTRL_S, "s"):
-            self.window.show(self.is_paused)
 
     def quit(self, why: str, status: int = 0) -> None:
         """End the run. The first reason counts."""
@@ -398,51 +392,50 @@ class Keys:
         self.terminal.give_back()
         signal.signal(signal.SIGTSTP, signal.SIG_DFL)
         signal.raise_signal(signal.SIGTSTP)  # the process stops here
-        signal.signal(signal.SIGTSTP, self.note)
-        self.is_suspending, self.notice = False, ""
+        signal.signal(signal.SIGTSTP, self.on_signal)
+        self.is_suspending, self.pause_line = False, ""
 
-    def shown(self, frame: int, t_s: float) -> None:
-        """Send the frame out at once; note how far the film is, and that a step is taken."""
+    def count(self, frame: int, t_s: float) -> None:
+        """A frame has been printed: send it out at once, and keep how far the film is."""
         sys.stdout.flush()
         self.frame, self.t_s = frame, t_s
-        self.steps = max(0, self.steps - 1)
+        self.to_show -= 1
 
     def leave_time(self, pause_s: float) -> None:
         """Leave time to read the header. If Ctrl-C cuts it short, a diamond says so."""
-        if self.is_reading:
+        if not self.begun_by:
             self.wait_until(time.perf_counter() + pause_s)
-        if not self.is_reading:
+        if self.begun_by == CTRL_C:
             print("   *\n  * *\n *   *\n  * *\n   *")
-        self.is_reading = False
+        self.begun_by = self.begun_by or "the clock"
 
     def wait_until(self, moment_s: float) -> bool:
         """Sleep until moment_s of time.perf_counter, and while paused. Returns if it was paused."""
-        was_reading, was_held = self.is_reading, False
+        begun_by, was_paused = self.begun_by, False
         while True:
             self.look()
-            is_held = self.is_paused and not self.steps
-            was_held = was_held or self.is_paused
-            left_s = 0.0 if self.steps else moment_s - time.perf_counter()
-            is_cut = was_reading and not self.is_reading
-            if self.why_quit or is_cut or (left_s <= 0 and not is_held):
+            was_paused = was_paused or self.to_show < math.inf
+            is_due_now = 0 < self.to_show < math.inf or self.begun_by != begun_by
+            left_s = 0.0 if is_due_now else moment_s - time.perf_counter()
+            if self.why_quit or (left_s <= 0 < self.to_show):
                 break
-            if is_held and not self.notice:
-                self.tell(f"paused after frame {self.frame}, t = {self.t_s:.2f} s: "
-                          "p resumes, s steps, x quits")
-            time.sleep(SLICE_S if is_held else min(SLICE_S, left_s))
-        self.tell("")
-        return was_held
+            if not self.to_show and not self.pause_line:
+                self.say_paused(f"paused after frame {self.frame}, t = {self.t_s:.2f} s: "
+                                "p resumes, s steps, x quits")
+            time.sleep(min(SLICE_S, left_s) if self.to_show else SLICE_S)
+        self.say_paused("")
+        return was_paused
 
-    def tell(self, notice: str) -> None:
+    def say_paused(self, line: str) -> None:
         """Say that the run is paused; on a terminal only until it resumes: the film stays whole."""
         is_terminal = sys.stdout.isatty()
-        if is_terminal and self.notice:
-            print("\r" + " " * len(self.notice) + "\r", end="", flush=True)
+        if is_terminal and self.pause_line:
+            print("\r" + " " * len(self.pause_line) + "\r", end="", flush=True)
         if is_terminal:  # what wraps could not be taken back
-            notice = notice[:shutil.get_terminal_size().columns - 1]
-        if notice:
-            print(notice, end="" if is_terminal else "\n", flush=True)
-        self.notice = notice
+            line = line[:shutil.get_terminal_size().columns - 1]
+        if line:
+            print(line, end="" if is_terminal else "\n", flush=True)
+        self.pause_line = line
 
 def redirect(stack: contextlib.ExitStack, handler: Any, *names: str) -> None:
     """Give these signals to the handler until the stack closes, but leave ignored ones alone."""
@@ -464,7 +457,7 @@ def taken_keys() -> Iterator[Keys]:
         redirect(stack, signal.SIG_DFL, "SIGINT")
         keys.window.open()
         stack.callback(keys.window.close)
-        redirect(stack, keys.note, *SIGNALS)
+        redirect(stack, keys.on_signal, *SIGNALS)
         stack.callback(keys.terminal.give_back)
         keys.terminal.take()
         yield keys

@@ -17,7 +17,7 @@ class Clock:
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.now_s = 1000.0
         self.frames_s: list[float] = []  # when each frame was drawn
-        self.when_drawn: Callable[[int], float] = lambda frame: 0.0  # how long that takes
+        self.when_drawn: Callable[[int], float] = lambda frame: 1e-5  # how long that takes
         self.due: list[tuple[float, str]] = []  # when keys are pressed, and which
         stand_in = SimpleNamespace(perf_counter=lambda: self.now_s, sleep=self.sleep)
         monkeypatch.setattr(airtrack, "time", stand_in)

@@ -27,7 +27,8 @@ WRONG = {  # a command line that is refused: what is said of it
     "width_px=99.5": "width_px must be a whole number from 10 to 1000 px, not '99.5'",
     "motion=bakward": "motion must be forward, backward or exact, not 'bakward'",
     "auto_off=no": "auto_off must be False or True, not 'no'",
-    "99 right_edge_m=0.259": "right_edge_m must be left_edge_m + 0.01 or more, not 0.259",
+    "10 left_edge_m=3": "right_edge_m must be at least 0.01 m to the right of left_edge_m, not 2.2 "
+                        "and 3.0",
     "8 correction=rewind": "motion must be exact with correction=rewind, not backward: "
                            "choose motion=exact, or another correction",
     "10 motion=forward": "motion must be exact with correction=rewind, not forward: "
@@ -43,13 +44,13 @@ WRONG = {  # a command line that is refused: what is said of it
     "--frames 2.5": "--frames N must be a whole number from 1 up, not '2.5'",
     "--frames": "--frames N must be a whole number from 1 up, not ''",
 }
-NAMES = ("--help", "chart", "stability", "d", "--fast", "--frames", "--save",
+NAMES = ("--help", "chart", "stability", "--fast", "--frames", "--save",
          *(name for name, *_ in TABLE))
 NEAREST = {name.swapcase(): name for name in NAMES} | {  # a word that is none: the nearest name
-    "fps_taget=10": "fps_target", "cr=0.5": "CR", "CR": "CR", "-d": "d", "frames=5": "--frames",
+    "fps_taget=10": "fps_target", "cr=0.5": "CR", "CR": "CR", "frames=5": "--frames",
     "--frame": "--frames", "--fast=yes": "--fast", "chrat": "chart", "stabillity": "stability",
     "v=3": "v_mps", "x=1": "x_m", "a=-9.81": "a_mps2", "FPS=10": "fps_target", "-": "--help"}
-NEAR_NONE = ("ten", "3.5", "-x", "speed=2", "=3", "", " ", "a\nb", "--\n", "\0", "\u00e4",
+NEAR_NONE = ("ten", "3.5", "-x", "dt=0.1", "speed=2", "=3", "", " ", "a\nb", "--\n", "\0", "\u00e4",
              "9" * 5000)
 VALUES = dict.fromkeys((name for name, *_ in TABLE), "=VALUE")
 HINTS = {word: f"nearest: {name}{VALUES.get(name, '')}" for word, name in NEAREST.items()}
@@ -104,8 +105,16 @@ def test_a_command_comes_in_any_place_too_and_is_for_example_10_unless_another_i
     monkeypatch.setattr(airtrack, command, lambda scene, *_: asked.append(scene))
     for words in ([command], *permutations([command, "3", "CR=0.5"])):
         assert main([*words]) == 0
-    assert asked == [Scene(**EXAMPLES[10].settings)] + 6 * [
-        Scene(**EXAMPLES[3].settings | {"CR": 0.5})]
+    assert [(scene.a_mps2, scene.CR) for scene in asked] == [(-2.0, 1.0)] + 6 * [(-1.5, 0.5)]
+
+
+@pytest.mark.parametrize("changes", [["motion=forward"], ["x_m=5"], ["correction=surface"]])
+def test_chart_and_map_do_not_mind_the_example_s_own_correction(
+        changes: list[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    for command in ("chart", "stability"):
+        monkeypatch.setattr(airtrack, command, lambda *_: None)
+        assert main([command, "12", *changes]) == 0
+        assert main([command, "12", *changes, "motion=forward", "correction=rewind"]) == 2
 
 
 def test_settings_come_on_top_of_the_example_whose_text_is_then_marked(capsys: Capture) -> None:

