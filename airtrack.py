@@ -45,7 +45,11 @@ def setting(default: Any, meaning: str, allowed: tuple[Any, ...] = (False, True)
 
 @dataclass(frozen=True)
 class Scene:
-    """The settings; names carry their units. Raises BadInput (a ValueError) for a wrong value."""
+    """The settings; names carry their units. Raises BadInput (a ValueError) for a wrong value.
+
+    No scene ever changes: step, below, returns a new state. The methods by default are such as do
+    for any force; exact, rewind and replay are right, but for a constant a alone.
+    """
 
     x_m: float = setting(1.1, "starting position", (-1000, 1000), "m")
     v_mps: float = setting(0.0, "starting velocity, positive to the right", (-1000, 1000), "m/s")
@@ -103,31 +107,42 @@ def exact(x_m: float, v_mps: float, a_mps2: float, dt_s: float) -> State:
 MOTIONS = {"forward": forward, "backward": backward, "exact": exact}
 
 
-# ==== 3. Colliding: the move ended beyond a wall; where is the car really? ======================
+# ==== 3. Colliding: the stickiness corrections ==================================================
 #
-# The corrections, from the crudest to the best; each can do what the one before it cannot. They
-# take the x and v that the move ended with, the wall that x is beyond, a and CR. It is they who
-# reverse the velocity and keep CR of it, since rewind needs the v before the bounce. In their texts
+# The move ended beyond a wall, where a car may stick. A correction takes the x and v that the move
+# ended with, the wall, a and CR, and returns a better x and v. They come in the order of how much
+# of the frame's rest, the time after the bounce, they follow: none and surface nothing, rebound a
+# flight without a pull, rewind one under the pull, and replay further bounces too. In their texts
 #     overlap        is how far x is beyond the wall,
 #     off the wall   is back towards the track,
 #     g              is an acceleration that pulls into the wall.
+#
+# The law of the hops explains chart and map. At CR = 1 every hop off the wall that the car is
+# pulled to should last as long as the one before. It lasts so many frames longer, which add up:
+#                      none 0    surface +1    rebound +2
+#     forward  +2        +2          +3            +4
+#     exact     0         0          +1            +2
+#     backward -2        -2          -1             0
+# Why: a car that leaves the wall at w is back after 2 w/(g dt) frames, so g w dt/2 more of E is one
+# frame more. Euler's flight changes E by g^2 dt^2/2 in each of these frames: two frames. Then the
+# car is found 0 to w dt beyond the wall, on average w dt/2. surface lifts it by that at an
+# unchanged speed: one frame (in every hop; the others on average). rebound lifts it by twice that:
+# two. By a sum k, E grows by k g^2 dt/4 a second: above 0 the car gains energy, below 0 it loses
+# it. At 0, exact + none keeps E, backward + rebound wanders. With none, the trap may come first.
 
 def none(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Leave the car where it is: a trap.
 
     Slowed by CR < 1, or pulled into the wall, it may not be out one frame later. Then v is reversed
     once more, now into the wall. At CR < 1 the swings die down, until each frame begins at
-    CR g dt/(1 + CR) off the wall and ends at g dt/(1 + CR) into it. Forward Euler moves the car by
-    the first speed, and it creeps out; backward by the second, and it sinks by g dt^2/(1 + CR) a
-    frame (example 3's millimetre); exact by their mean. A pull off the wall reverses all signs.
+    CR g dt/(1 + CR) off the wall and ends at g dt/(1 + CR) into it. forward moves the car by the
+    first speed, and it creeps out; backward by the second, and it sinks by g dt^2/(1 + CR) a frame
+    (example 3); exact by their mean. A pull off the wall reverses all signs.
     """
     return x_m, -CR * v_mps
 
 def surface(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
-    """Put the car on the wall, never beyond it, so that it is never stuck.
-
-    What is left of the frame after the bounce is lost: the car leaves the wall up to dt late.
-    """
+    """Put the car on the wall, so that it is never stuck. It leaves the wall up to dt late."""
     return wall_m, -CR * v_mps
 
 def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
@@ -139,24 +154,19 @@ def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -
     return x_m - overlap_m * (1 + CR), -CR * v_mps
 
 def arrival(d_m: float, u_mps: float, g_mps2: float) -> tuple[float, float]:
-    """How long to a wall d ahead, and how fast there? Returns t_s, w_mps.
-
-    u_mps is the velocity, g_mps2 the acceleration, both towards the wall. There must be a way: the
-    first is positive, or the second.
-    """
+    """How long to a wall d_m ahead, and how fast there: t_s, w_mps. u and g are towards it."""
     # The speed w at the wall, from energy: w^2 = u^2 + 2 g d. (max: for round-off.)
     w_mps = math.sqrt(max(0.0, u_mps * u_mps + 2 * g_mps2 * d_m))
-    # The time, from w = u + g t, or from the mean velocity: d = (u + w)/2 t. Each is used where it
-    # subtracts nothing: the difference of two nearly equal numbers is mostly round-off.
+    # The time t, from the mean velocity, d = (u + w)/2 t, or from w = u + g t: whichever subtracts
+    # nothing, as the difference of two nearly equal numbers is mostly round-off.
     return (2 * d_m / (u_mps + w_mps) if u_mps > 0 else (w_mps - u_mps) / g_mps2), w_mps
 
 def rewind(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Go back to the wall, bounce there, and go on for as long as the car was beyond.
 
-    Both ways are the exact motion's, so it takes that motion. It is right for a frame that holds
-    one bounce and whose move ends beyond the wall (example 10). It cannot settle a second bounce.
-    And where the pull has brought the car back to the track by the frame's end, no collision is
-    found: a missed event (example 18).
+    Right for the exact motion, in a frame that holds one bounce and whose move ends beyond the wall
+    (example 10). A second bounce it cannot settle. And where the pull has brought the car back to
+    the track by the frame's end, no collision is found: a missed event (example 18).
     """
     # Backwards in time v changes its sign and a does not: the way back is an arrival at the wall.
     side = math.copysign(1, x_m - wall_m)  # 1 beyond the right wall, -1 beyond the left one
@@ -191,14 +201,14 @@ GRAZE_M = 5e-11  # far above the round-off of a position
 def replay(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> State:
     """Replace the move: follow the exact motion from the frame's start, from wall to wall.
 
-    It is right for frames of any length, with several bounces (example 15) or infinitely many
-    (example 12). See a ball in a room: the pull is gravity, the wall that it pulls to is the floor
-    (without a pull, the left one), the other the ceiling, h the height. The loop ends: from the
-    floor the ball reaches the ceiling, which takes time, or it hops.
+    Right for a frame of any length, with several bounces (example 15) or infinitely many (12): the
+    tests compare it with 60-digit decimals. See a ball in a room: the pull is gravity, the wall
+    that it pulls to the floor (without a pull, the left one), the other the ceiling, h the height.
+    The loop ends: from the floor the ball reaches the ceiling, which takes time, or it hops.
 
-    If it turns less than GRAZE_M behind the ceiling, that is a miss. For there an error of 1e-16 in
-    h would be one of 1e-8 in v. Each such miss is an error too, of up to 4 sqrt(room GRAZE_M) in
-    position, 4e-5 m by default.
+    If it turns less than GRAZE_M behind the ceiling, that is a miss, as an error of 1e-16 in h
+    would be one of 1e-8 in v there. Each miss shifts the car by up to 4 sqrt(room GRAZE_M), or
+    4e-5 m by default.
     """
     up, floor_m = (-1, scene.right_edge_m) if scene.a_mps2 > 0 else (1, scene.left_edge_m)
     room_m, g_mps2, CR = scene.right_edge_m - scene.left_edge_m, abs(scene.a_mps2), scene.CR
@@ -227,19 +237,17 @@ def replay(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> State:
 def hops(v_mps: float, g_mps2: float, CR: float, t_s: float) -> tuple[float, float]:
     """Take at once all whole hops that fit into t_s. Returns the time left, and v off the floor.
 
-    The first hop lasts T = 2 v/g, each next one CR times as long. All of them, infinitely many,
-    last T (1 + CR + CR^2 + ...) = T/(1 - CR). Then the ball is at rest: the Zeno point.
+    The first hop lasts T = 2 v/g, each next one CR times as long, and all of them, infinitely many,
+    T (1 + CR + CR^2 + ...) = T/(1 - CR). Then the ball is at rest: the Zeno point.
     """
     hop_s = 2 * v_mps / g_mps2
+    zeno_s = hop_s / (1 - CR) if CR < 1 else math.inf
     if hop_s > t_s:  # not even one
         return t_s, v_mps
-    if t_s + hop_s == t_s:  # too short to be told from 0
+    if zeno_s <= t_s or t_s + hop_s == t_s:  # all, or each too short to be told from 0
         return 0.0, 0.0
     if CR == 1:
         return math.fmod(t_s, hop_s), v_mps
-    zeno_s = hop_s / (1 - CR)
-    if zeno_s <= t_s:
-        return 0.0, 0.0
     # n hops last zeno (1 - CR^n) = t, solved for n. log1p(y) is log(1 + y) and expm1(y) e^y - 1,
     # without the rounding of 1 + y that would spoil them near CR = 1.
     n = math.floor(math.log1p(-t_s / zeno_s) / math.log(CR))
@@ -290,8 +298,7 @@ def paced(scene: Scene, keys: Keys) -> Iterator[tuple[float, float]]:
     """Yield, when a frame is due, the length that moves the car, and the observed rate in FPS.
 
     That length is the last frame's or, after a pause or a stall, what it should have been: no leap.
-    Deadlines are absolute: a sleep of dt after each frame would add what computing and printing
-    take. A key that quits ends the frames.
+    Deadlines are absolute: sleeping for dt after each frame would add what the frame itself takes.
     """
     began_s = deadline_s = time.perf_counter() - 1 / scene.fps_target  # so the first is due at once
     for due_s, _ in planned(scene):
@@ -314,7 +321,7 @@ def truth_of(scene: Scene) -> Scene:
 def is_at_rest(scene: Scene, v_mps: float, recent_m: deque[float]) -> bool:
     """Whether a wall holds the car: the one that it is pulled to or, without a pull, either.
 
-    By its mean position, as Euler's car that leans on a wall never has v = 0. Without a pull v must
+    The mean of 1/3 s tells, since by Euler's methods v is never 0 at a wall. Without a pull v must
     be 0 as well: a slow car leaves the wall again.
     """
     mean_m = sum(recent_m) / len(recent_m)
@@ -329,8 +336,7 @@ def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None
     x_m, v_mps = scene.x_m, scene.v_mps
     true_m, true_mps = (truth.x_m if scene.show_exact_mark else None), truth.v_mps
     recent_m = deque[float](maxlen=max(10, round(scene.fps_target / 3)))  # 1/3 s, at least 10
-    frame, t_s = 0, 0.0
-    why = "that is the frame limit"
+    frame, t_s, why = 0, 0.0, "that is the frame limit"
     beats = paced(scene, keys) if keys else planned(scene)
     for frame, (length_s, fps) in enumerate(islice(beats, max_frames), start=1):
         # Move and settle.
@@ -357,11 +363,11 @@ def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None
 # ==== 6. What film, chart and map share in printing =============================================
 
 INKS = {  # marks of film, chart and map: the terminal's number for their colour
-    "0rXx": 31,  # red
-    "ow-": 32,  # green
+    "0cXx": 31,  # red
+    "od-": 32,  # green
     "*<>eWGgLl": 33,  # amber
     "bPp": 34,  # blue
-    "Ss": 35,  # violet
+    "aSs": 35,  # violet
 }
 COLOURED = {
     ord(mark): f"\033[{ink}m{mark}\033[0m" for marks, ink in INKS.items() for mark in marks
@@ -382,32 +388,37 @@ def say(text: str, indent: int = 0) -> None:
 
 # ==== 7. Speed against accuracy: the chart ======================================================
 
-SPAN_S, CUTS = 20, 9  # chart and map: seconds to simulate, ways to cut them into frames
+SPAN_S, CUTS = 20, 9  # of chart and map: simulated seconds, runs of each method
+MEASURED = (f"The scene's own motion, correction and rate do not matter. Each method runs {CUTS} "
+            f"times for {SPAN_S} simulated seconds, each time with its frames a ninth of a frame "
+            "later. The worst of these nine cuts counts.")
 CHART_FPS = (10, 30, 60, 120, 240, 480, 960, 1920, 3840)  # multiples of 10, for simulate
-SERIES = {"s": ("backward", "surface"), "b": ("backward", "rebound"), "r": ("exact", "rebound"),
-          "w": ("exact", "rewind"), "e": ("exact", "replay")}  # e: the truth, frame by frame
+SERIES = {"a": ("backward", "surface"), "b": ("backward", "rebound"), "c": ("exact", "rebound"),
+          "d": ("exact", "rewind"), "e": ("exact", "replay")}
 TABLE_HEAD = """
-        s: backward    b: backward       r: exact       w: exact       e: exact
+        a: backward    b: backward       c: exact       d: exact       e: exact
           + surface      + rebound      + rebound       + rewind       + replay
  FPS  error m    us  error m    us  error m    us  error m    us  error m    us"""
 Points = dict[str, list[tuple[float, float]]]  # letter: (error_m, cost_us) at each rate
-step_once = cache(step)  # all methods and cuts need the truth at the same moments
+step_once = cache(step)  # all methods need the truth at the same moments
 
 def simulate(scene: Scene, fps: int, cut: int) -> Iterator[tuple[State, State]]:
     """Run for SPAN_S; yield the car's state and the true one, every 0.1 s or every longer frame.
 
-    Where in a frame the car meets a wall is luck. So the frames are shifted: a run begins cut/9 of
-    a frame after the start, at the true state of that moment.
+    Where in a frame the car meets a wall is luck. So the same motion is cut into frames in nine
+    ways: run k begins (k + 1/3)/9 of a frame after the start, at the true state of that moment.
+    (Not at the start itself: a car at rest on a frame's edge is a special case.) The truth is one
+    step of any length, so that no error adds up.
     """
     truth = truth_of(scene)
-    shift_s = cut / CUTS / fps
+    shift_s = (cut + 1 / 3) / CUTS / fps
     frames_a_sample = max(1, fps // 10)
     x_m, v_mps, _ = step(truth, truth.x_m, truth.v_mps, shift_s)
     for frame in range(frames_a_sample, SPAN_S * fps + 1, frames_a_sample):
         for _ in range(frames_a_sample):
             x_m, v_mps, _ = step(scene, x_m, v_mps, 1 / fps)
-        true_m, true_mps, _ = step_once(truth, truth.x_m, truth.v_mps, frame / fps)
-        yield (x_m, v_mps), step(truth, true_m, true_mps, shift_s)[:2]
+        true_m, true_mps, _ = step_once(truth, truth.x_m, truth.v_mps, shift_s + frame / fps)
+        yield (x_m, v_mps), (true_m, true_mps)
 
 def cost_us(scene: Scene, fps: int) -> float:
     """Processor time of the bare steps for a simulated second, the best of several runs."""
@@ -484,7 +495,7 @@ def new_figure(file: str) -> Any:
 
 def save(figure: Any, file: str, points: Points, pixel_m: float, heading: str) -> None:
     """Draw the points with matplotlib as well. Raises BadInput where it cannot save them."""
-    figure.suptitle(f"Speed against accuracy\n{textwrap.fill(heading, 84)}")
+    figure.suptitle(f"Speed against accuracy\n{textwrap.fill(heading, 100)}", fontsize=10)
     axes = figure.add_subplot(
         xscale="log", yscale="log", xlabel=f"largest error in {SPAN_S} s (m): better to the left",
         ylabel="processor time for a simulated second (\N{MICRO SIGN}s):\nbetter upwards")
@@ -504,7 +515,7 @@ def save(figure: Any, file: str, points: Points, pixel_m: float, heading: str) -
 def chart(scene: Scene, heading: str, file: str | None) -> None:
     """Print the table and the picture; with a file, save the picture as well."""
     figure = None if file is None else new_figure(file)  # fails before the measuring
-    say(f"Speed against accuracy. {heading}")
+    say(f"Speed against accuracy. {heading} {MEASURED}")
     points = table(scene)
     picture(points, 1 / scene.m_to_px)
     if file is not None:
@@ -552,7 +563,7 @@ def cell(found: set[str]) -> str:
 def stability(scene: Scene, heading: str) -> None:
     """Print the map: a row for each method, a column for each rate, a letter for the nine cuts."""
     rates = f"{'FPS':20}" + "".join(f"{fps:6}" for fps in MAP_FPS)
-    say(f"Stability. {heading}")
+    say(f"Stability. {heading} {MEASURED}")
     print(f"\n{rates}")
     for motion in MOTIONS:
         print()
@@ -627,7 +638,7 @@ def in_words(scene: Scene) -> str:
         speed = f"moving {side[scene.v_mps > 0]} at {abs(scene.v_mps):g} m/s"
     if scene.a_mps2:
         pull = f"pulled {side[scene.a_mps2 > 0]} at {abs(scene.a_mps2):g} m/s^2"
-    return f"The car starts at x = {scene.x_m:g} m, {speed}, {pull}; CR = {scene.CR:g}."
+    return f"The car starts at x = {scene.x_m:g} m, {speed}, {pull}; CR={scene.CR:g}."
 
 def method_in_words(scene: Scene) -> str:
     """Motion, correction, frame rate, and whatever else is not the default, in words."""
@@ -660,7 +671,7 @@ def tell_of_walls(scene: Scene) -> None:
         say(f"The picture ends before a wall: m_to_px={enough:g} would show both.")
 
 def film(scene: Scene, number: int, title: str, options: dict[str, str]) -> int:
-    """Print the header, leave time to read it, and run."""
+    """Print what to look for, leave time to read it, run, and print what was to be seen."""
     example = EXAMPLES.get(number, OWN_SCENE)
     details = "d" in options or example.details
     max_frames = value_of(int, options.get("--frames", "50000"))
@@ -668,8 +679,6 @@ def film(scene: Scene, number: int, title: str, options: dict[str, str]) -> int:
         raise BadInput(f"--frames N must be a whole number from 1 up, not {max_frames!r}")
     say(f"{title}.")
     say(f"{in_words(scene)} {method_in_words(scene)}")
-    if number in EXAMPLES and scene != Scene(**example.settings):
-        say("(The text is about the example as it is, without your changes.)")
     say(example.look_for)
     tell_of_walls(scene)
     view = fitted(scene, details)
@@ -680,9 +689,13 @@ def film(scene: Scene, number: int, title: str, options: dict[str, str]) -> int:
             keys.leave_time(example.pause_s)
         print(flush=True)
         run(view, details, min(max_frames, sys.maxsize), keys)
-        if keys and keys.where() and not keys.status and {number, number + 1} <= EXAMPLES.keys():
-            print(f"Next: python airtrack.py {number + 1}")
-        return keys.status if keys else 0
+    if keys and keys.frame and not keys.status and number in EXAMPLES:
+        if scene != Scene(**example.settings):
+            say("(What follows is about the example as it is, without your changes.)")
+        say(example.seen)
+        if keys.where():
+            print(f"Next: python airtrack.py {number + 1 if number + 1 in EXAMPLES else 'chart'}")
+    return keys.status if keys else 0
 
 def manual() -> int:
     """Print the usage, the examples and the settings."""
@@ -747,15 +760,14 @@ def obey(words: list[str]) -> int:
     if command in COMMANDS:  # they run all methods; the example's own might not suit the changes
         settings.pop("correction", None)
     scene = Scene(**settings | changes)
-    title = f"Example {number}: {example.title}" if number in EXAMPLES else example.title
-    title += "".join(f", {name}={value}" for name, value in changes.items())
+    changed = "".join(f", {name}={value}" for name, value in changes.items())
     if command not in COMMANDS:
-        return film(scene, number, title, given)
+        title = f"Example {number}: {example.title}" if number in EXAMPLES else example.title
+        return film(scene, number, title + changed, given)
     on_track = replace(scene, x_m=scene.to_track(scene.x_m))
-    beyond = "" if on_track == scene else "It starts beyond a wall; here all methods start on it. "
-    heading = (f"{title}. {in_words(scene)} {beyond}The scene's own motion, correction and rate "
-               f"do not matter. Each method runs for {SPAN_S} simulated seconds nine times (cuts), "
-               "the frames shifted by ninths of a frame: the worst counts.")
+    whose = f"Example {number}'s scene" if number in EXAMPLES else example.title
+    beyond = "" if on_track == scene else " It starts beyond a wall; here all methods start on it."
+    heading = f"{whose}{changed}. {in_words(scene)}{beyond}"
     if command == "stability":
         stability(on_track, heading)
     else:

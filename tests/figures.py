@@ -51,22 +51,22 @@ def columns(*words: str) -> list[tuple[list[str], ...]]:
 
 def errors_m(example: str, letter: str) -> list[float]:
     """The errors of a series, one for each rate."""
-    return [float(cell[0]) for cell in columns(example)[1 + "sbrwe".index(letter)][3:-2]]
+    return [float(cell[0]) for cell in columns(example)[1 + "abcde".index(letter)][3:-2]]
 
 
 @cache
 def truth(CR: float, fps: int, cut: int) -> list[State]:
     """The true states at the samples of a fall from 2 m at 2 m/s^2, from 60-digit decimals."""
-    late_s, frames = cut / 9 / fps, max(1, fps // 10)
-    times_s = [Decimal(late_s + frame / fps) for frame in range(frames, 20 * fps + 1, frames)]
+    shift_s, frames = (3 * cut + 1) / 27 / fps, max(1, fps // 10)
+    times_s = [Decimal(shift_s + frame / fps) for frame in range(frames, 20 * fps + 1, frames)]
     return [(float(x), float(v)) for x, v in states(Scene(x_m=2, a_mps2=-2, CR=CR), times_s)]
 
 
 @cache
 def told_plainly(motion: str, correction: str, CR: float, fps: int, cut: int) -> Samples:
     """The samples of that fall by a method, told plainly."""
-    dt_s, late_s, frames = 1 / fps, cut / 9 / fps, max(1, fps // 10)
-    x, v = 2 - late_s**2, -2 * late_s
+    dt_s, shift_s, frames = 1 / fps, (3 * cut + 1) / 27 / fps, max(1, fps // 10)
+    x, v = 2 - shift_s**2, -2 * shift_s
     found = []
     for true in truth(CR, fps, cut):
         for _ in range(frames):

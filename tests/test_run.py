@@ -11,6 +11,7 @@ import pytest
 import examples
 from airtrack import Scene, main, planned
 from clock import Clock, positions_m
+from examples import EXAMPLES
 
 Capture = pytest.CaptureFixture[str]
 Play = Callable[..., str]
@@ -27,7 +28,7 @@ def play(clock: Clock, capsys: Capture) -> Play:
 
 
 def ending(out: str) -> str:
-    return out.splitlines()[-1]
+    return next(line for line in out.splitlines() if line.startswith("Stopped"))
 
 
 # Pacing.
@@ -280,11 +281,22 @@ def test_the_keys_are_told_and_the_next_example_is_named_where_there_are_any(
     out = " ".join(play("3 --frames 2").split())
     assert ("No window for the keys: no." in out) is bool(why_shut)
     assert (f"Keys, {where}: p or Ctrl-S pauses, s steps one frame" in out) is bool(where)
-    assert ("p to hold this text" in out) is bool(where)
-    assert out.endswith("Next: python airtrack.py 4" if where else "that is the frame limit.")
-    for last in (18, 99, -1):
+    assert ("p to hold this text, Enter to begin" in out) is bool(where)
+    assert out.endswith("Next: python airtrack.py 4" if where else EXAMPLES[3].seen)
+    assert (f"{EXAMPLES[19].seen} Next: python airtrack.py chart" in " ".join(
+        play("19 --frames 2").split())) is bool(where)
+    for last in ("99", "-1", "3 --fast"):
         assert "Next" not in play(f"{last} --frames 2")
-    assert "Next" not in play("3 --frames 2 --fast")
+
+
+def test_after_the_film_it_is_told_what_was_to_be_seen(clock: Clock, play: Play) -> None:
+    seen, as_it_is = EXAMPLES[10].seen, "(What follows is about the example as it is, without your "
+    for words, is_changed in (("10", False), ("10 CR=1", False), ("10 CR=0.9", True)):
+        before, _, after = " ".join(play(words, t4="x").split()).partition(": x was pressed. ")
+        assert seen not in before
+        assert after == (f"{as_it_is}changes.) {seen}" if is_changed else seen)
+    assert ending(play("10", t1="x")).startswith("Stopped after 0 frames")
+    assert ending(play("10 --frames 9 --fast")).startswith("Stopped after 9 frames")
 
 
 # The picture and the terminal.
