@@ -389,9 +389,9 @@ def say(text: str, indent: int = 0) -> None:
 # ==== 7. Speed against accuracy: the chart ======================================================
 
 SPAN_S, CUTS = 20, 9  # of chart and map: simulated seconds, runs of each method
-MEASURED = (f"The scene's own motion, correction and rate do not matter. Each method runs {CUTS} "
-            f"times for {SPAN_S} simulated seconds, each time with its frames a ninth of a frame "
-            "later. The worst of these nine cuts counts.")
+MEASURED = ("The scene's own motion, correction and rate do not matter. Each method runs nine "
+            "times for 20 simulated seconds, its frames a ninth of a frame later each time. The "
+            "worst of these nine cuts counts.")
 CHART_FPS = (10, 30, 60, 120, 240, 480, 960, 1920, 3840)  # multiples of 10, for simulate
 SERIES = {"a": ("backward", "surface"), "b": ("backward", "rebound"), "c": ("exact", "rebound"),
           "d": ("exact", "rewind"), "e": ("exact", "replay")}
@@ -405,10 +405,9 @@ step_once = cache(step)  # all methods need the truth at the same moments
 def simulate(scene: Scene, fps: int, cut: int) -> Iterator[tuple[State, State]]:
     """Run for SPAN_S; yield the car's state and the true one, every 0.1 s or every longer frame.
 
-    Where in a frame the car meets a wall is luck. So the same motion is cut into frames in nine
-    ways: run k begins (k + 1/3)/9 of a frame after the start, at the true state of that moment.
-    (Not at the start itself: a car at rest on a frame's edge is a special case.) The truth is one
-    step of any length, so that no error adds up.
+    Where in a frame the car meets a wall is luck. So cut k, 0 to 8, begins (k + 1/3)/9 of a frame
+    after the start (where rest on a frame's edge would be a special case), at the true state of
+    that moment. The truth is one step of any length, so that no error adds up.
     """
     truth = truth_of(scene)
     shift_s = (cut + 1 / 3) / CUTS / fps
@@ -417,8 +416,7 @@ def simulate(scene: Scene, fps: int, cut: int) -> Iterator[tuple[State, State]]:
     for frame in range(frames_a_sample, SPAN_S * fps + 1, frames_a_sample):
         for _ in range(frames_a_sample):
             x_m, v_mps, _ = step(scene, x_m, v_mps, 1 / fps)
-        true_m, true_mps, _ = step_once(truth, truth.x_m, truth.v_mps, shift_s + frame / fps)
-        yield (x_m, v_mps), (true_m, true_mps)
+        yield (x_m, v_mps), step_once(truth, truth.x_m, truth.v_mps, shift_s + frame / fps)[:2]
 
 def cost_us(scene: Scene, fps: int) -> float:
     """Processor time of the bare steps for a simulated second, the best of several runs."""
@@ -453,9 +451,8 @@ def table(scene: Scene) -> Points:
             points[letter].append((error_m, us))
             row += f"{error_m:9.1e}{two_digits(us):>6}"
         print(row, flush=True)
-    pixel_m = 1 / scene.m_to_px
-    print(f"Within a pixel ({1000 * pixel_m:.3g} mm) in all cuts: from which rate on, and its us")
-    cells = (first_within(series, pixel_m) for series in points.values())
+    print(f"Within a pixel ({1000 / scene.m_to_px:.3g} mm) in all cuts: from which rate on, its us")
+    cells = (first_within(series, 1 / scene.m_to_px) for series in points.values())
     print(f"    {''.join(cells)}\n")
     return points
 
@@ -464,20 +461,20 @@ def error_px(error_m: float) -> int:
     return round(8 * math.log10(min(max(error_m, 1e-6), 10) / 1e-6))
 
 def picture(points: Points, pixel_m: float) -> None:
-    """Print the points as a film, with processor time downwards: four rows to a power of ten."""
+    """Print the points: error to the right, processor time down, four rows to a power of ten."""
     marks = [(round(4 * math.log10(us)), error_px(error_m), letter)
              for letter, series in points.items() for error_m, us in series]
     wall_px = error_px(pixel_m)
-    say("To the right: largest error, sampled every 0.1 s. Downwards: processor time for a "
-        "simulated second, in us (microseconds). The best are in the upper left. Right of the | "
-        "the error is more than a drawn pixel, and a film shows it.")
+    say("To the right: largest error, sampled every 0.1 s. Down: processor time for a simulated "
+        "second, in us (microseconds). The best are in the upper left. Errors to the right of the "
+        "| are more than a drawn pixel: a film shows them.")
     say("; ".join(f"{letter}: {' + '.join(method)}" for letter, method in SERIES.items())
         + "; +: several of them.")
     print(f"\n{'one drawn pixel |':>{wall_px + 11}}")
     print("    us    <=1 um  10 um   0.1 mm  1 mm    1 cm    0.1 m   1 m     >=10 m")
     for row in range(min(marks)[0], max(marks)[0] + 1):
         line = bytearray(b" " * 57)
-        paint(line, "|", wall_px)  # a wall: left of it no film need show the error
+        paint(line, "|", wall_px)
         for cost_px, column, letter in marks:
             if cost_px == row:
                 paint(line, letter if chr(line[column]) in f" |{letter}" else "+", column)
@@ -547,9 +544,8 @@ def verdict(scene: Scene, fps: int, cut: int) -> str:
         return "S"
     if max(abs(x_m - true_m) for (x_m, _), (true_m, _) in states) <= 1 / scene.m_to_px:
         return "-"
-    # E = v^2/2 - a x, as in section 2. 1 % is of v^2/2 at the start and |a| times the track.
     gain = sum((v_mps**2 - true_mps**2) / 2 - scene.a_mps2 * (x_m - true_m)
-               for (x_m, v_mps), (true_m, true_mps) in last) / len(last)
+               for (x_m, v_mps), (true_m, true_mps) in last) / len(last)  # in E (section 2)
     one_percent = 0.01 * (scene.v_mps**2 / 2 + abs(scene.a_mps2) * track_m)
     return "G" if gain > one_percent else "L" if gain < -one_percent else "P"
 
@@ -575,9 +571,9 @@ def stability(scene: Scene, heading: str) -> None:
                           for fps in MAP_FPS)
             print(f"{f'{motion} + {correction}':20}{inked(row)}", flush=True)
     print(f"\n{rates}\n")
-    say("Each letter is the worst of nine cuts, X worst, - best; small: only some cuts are so bad. "
-        "A higher rate need not be better: how far a wall is overshot is luck. At CR < 1, G mostly "
-        "means that the car does not come to rest. 1 %: of v^2/2 at start + |a| * track length.")
+    say("Each letter is the worst of nine cuts: X is the worst, - the best. It is small where only "
+        "some cuts are so bad. At CR < 1, G mostly means that the car does not come to rest. The "
+        "1 % is of v^2/2 at the start plus |a| times the track's length.")
     for letter, meaning in VERDICTS.items():
         print(f"{inked(letter)}  {meaning}")
 
@@ -772,6 +768,8 @@ def obey(words: list[str]) -> int:
         stability(on_track, heading)
     else:
         chart(on_track, heading, given.get("--save"))
+        if sys.stdout.isatty():
+            print("\nNext: python airtrack.py stability")
     return 0
 
 def main(argv: list[str] | None = None) -> int:

@@ -5,6 +5,7 @@ that of the start, the least of several runs; frame rates are of a film in a pip
 """
 
 import math
+import re
 import resource
 import subprocess
 import sys
@@ -25,38 +26,6 @@ from examples import EXAMPLES  # noqa: E402
 AIRTRACK = [sys.executable, str(HERE / "airtrack.py")]
 FRAMES = 100_000
 
-# Example 7 told again in the plainest way: state in dictionaries, a line built character by
-# character, print. What a beginner writes first, and what the program is compared with.
-PLAIN = """
-env = {"m_to_px": 55.0, "left_m": 0.25, "right_m": 2.2, "dt_s": 1 / 240, "fps": 240.0}
-car = {"x_m": 2.0, "v_mps": 0.0, "a_mps2": -2.0, "CR": 1.0, "start_m": 2.0}
-recent = []
-for frame in range(FRAMES):
-    car["v_mps"] += car["a_mps2"] * env["dt_s"]
-    car["x_m"] += car["v_mps"] * env["dt_s"]
-    for wall_m in (env["left_m"], env["right_m"]):
-        beyond = car["x_m"] < wall_m if wall_m == env["left_m"] else car["x_m"] > wall_m
-        if beyond:
-            car["x_m"] -= (car["x_m"] - wall_m) * (1 + car["CR"])
-            car["v_mps"] *= -car["CR"]
-    marks = {round(car["start_m"] * env["m_to_px"]): ".",
-             round(env["left_m"] * env["m_to_px"]): "|",
-             round(env["right_m"] * env["m_to_px"]): "|",
-             round(car["x_m"] * env["m_to_px"]): "*"}
-    line = ""
-    for column in range(136):
-        if column in marks:
-            line += marks[column]
-        else:
-            line += " "
-    recent = (recent + [car["x_m"]])[-10:]
-    mean_m = sum(recent) / len(recent)
-    if len(recent) == 10 and min(abs(mean_m - env["left_m"]), abs(mean_m - env["right_m"])) < 1e-3:
-        break
-    print(f"{line}x = {car['x_m']:6.2f}, v = {car['v_mps']:5.2f}, FPS = {env['fps']:3.0f}")
-"""
-
-
 def frame_s(command: Callable[[int], list[str]]) -> float:
     """Processor time of a frame, whose output goes into a file."""
     def spent_s(frames: int) -> float:
@@ -71,9 +40,13 @@ def frame_s(command: Callable[[int], list[str]]) -> float:
 
 
 def film() -> None:
-    plain_s = frame_s(lambda frames: [sys.executable, "-c", PLAIN.replace("FRAMES", str(frames))])
-    ours_s = frame_s(lambda frames: [*AIRTRACK, "7", "d", "--fast", "--frames", str(frames)])
-    print(f"a frame of example 7 into a file: {ours_s * 1e6:.1f} us, told plainly "
+    """The film of example 0, beside the README's one-pager, which does not keep time here."""
+    readme = (HERE / "README.md").read_text(encoding="utf-8")
+    page, = re.findall(r"```python\n(import time.*?)```", readme, re.DOTALL)
+    plain = page.replace("while True", "for _ in range(FRAMES)").replace("time.sleep(dt_s)", "pass")
+    plain_s = frame_s(lambda frames: [sys.executable, "-c", plain.replace("FRAMES", str(frames))])
+    ours_s = frame_s(lambda frames: [*AIRTRACK, "0", "--fast", "--frames", str(frames)])
+    print(f"a frame of example 0 into a file: {ours_s * 1e6:.1f} us, by the one-pager "
           f"{plain_s * 1e6:.1f} us: {plain_s / ours_s:.1f} times as fast")
 
 

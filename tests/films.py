@@ -2,7 +2,6 @@
 
 import os
 import re
-import subprocess
 import sys
 from pathlib import Path
 from typing import NamedTuple
@@ -50,9 +49,3 @@ def environment(**changes: str | None) -> dict[str, str]:
     """A clean environment with the changes (None: unset)."""
     wanted: dict[str, str | None] = {**CLEAN, **changes}
     return {name: value for name, value in wanted.items() if value is not None}
-
-
-def program(*words: str, **changes: str | None) -> subprocess.CompletedProcess[str]:
-    """Run the program in a process of its own, with changes to the environment (None: unset)."""
-    return subprocess.run([*COMMAND, *words], capture_output=True, text=True, timeout=60,
-                          env=environment(**changes), stdin=subprocess.DEVNULL, check=False)

@@ -148,16 +148,6 @@ def test_the_header_says_in_words_all_that_a_run_starts_from(
     assert film(capsys, *words.split(), "--frames", "1").intro.startswith(told)
 
 
-@pytest.mark.parametrize("columns", [50, 80])
-def test_the_header_is_as_wide_as_the_terminal(
-        columns: int, monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
-    monkeypatch.setenv("COLUMNS", str(columns))
-    for number in EXAMPLES:
-        assert main([str(number), "--fast", "--frames", "1"]) == 0
-        header = capsys.readouterr().out.partition("\n\n")[0]
-        assert columns - 10 < max(map(len, header.splitlines())) <= columns
-
-
 def test_fast_neither_waits_nor_tells_of_keys_nor_colours_nor_imports_pygame() -> None:
     code = ("import sys, time, airtrack; time.sleep = None; sys.stdout.isatty = lambda: True; "
             "airtrack.main(['10', '--fast', '--frames', '5']); sys.exit('pygame' in sys.modules)")

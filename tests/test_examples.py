@@ -68,11 +68,6 @@ def test_these_come_to_rest_in_the_frame_that_their_text_says(
                       "the car is at rest against a wall.")
 
 
-def test_the_pauses_are_5_s_for_example_1_and_4_s_for_3_and_3_s_for_the_others() -> None:
-    pauses_s = {number: example.pause_s for number, example in EXAMPLES.items()}
-    assert (pauses_s.pop(1), pauses_s.pop(3), set(pauses_s.values())) == (5, 4, {3})
-
-
 def test_examples_py_imports_nothing_from_airtrack_py() -> None:
     assert "airtrack" not in re.findall(
         r"^\s*(?:import|from) +(\w+)", Path(sys.modules["examples"].__file__ or "").read_text(),

@@ -18,7 +18,7 @@ def exact(**settings: float) -> Scene:
     return Scene(motion="exact", correction="replay", **settings)  # type: ignore[arg-type]
 
 
-def random_scene(rng: random.Random, fps: float | None = None) -> Scene:
+def random_scene(rng: random.Random) -> Scene:
     left_m = rng.uniform(-5, 5)
     right_m = left_m + 10 ** rng.uniform(-1, 1)
     return exact(
@@ -27,7 +27,7 @@ def random_scene(rng: random.Random, fps: float | None = None) -> Scene:
         v_mps=rng.choice([0.0, rng.uniform(-3, 3), rng.uniform(-30, 30)]),
         a_mps2=rng.choice([0.0, rng.uniform(-2, 2), rng.uniform(-30, 30)]),
         CR=rng.choice([0.0, 1.0, 0.5, 0.8, rng.uniform(0, 0.95), rng.uniform(0.5, 0.95)]),
-        fps_target=fps or 10 ** rng.uniform(-0.3, 3))
+        fps_target=10 ** rng.uniform(-0.3, 3))
 
 
 def largest_error_m(scene: Scene, frame_s: float, frames: int, samples: int = 8) -> float:

@@ -109,8 +109,6 @@ def test_after_a_stall_longer_than_150_ms_and_one_and_a_half_frames_the_car_does
     moves_s = late_s if observed and not is_stall else 1 / fps
     assert moved_m[4] == pytest.approx(10 * moves_s, abs=0.011)
     assert moved_m[6:] == pytest.approx([10 / fps] * 2, abs=0.011)
-    rates = [float(rate) for rate in re.findall("FPS = +([0-9]+)", out)]
-    assert rates[5] == pytest.approx(1 / late_s, abs=0.51)  # it was observed, all the same
 
 
 def test_where_every_frame_is_a_stall_the_car_moves_all_the_same(clock: Clock, play: Play) -> None:

@@ -19,7 +19,6 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
-from unittest.mock import Mock
 
 import pytest
 
@@ -186,18 +185,6 @@ def test_a_flood_of_escs_holds_up_neither_film_nor_signals(film: Terminal) -> No
     film.until("FPS")
     film.press("SIGTERM")
     film.ends(143)
-
-
-def test_a_call_that_is_interrupted_or_finds_the_terminal_gone_is_no_error(
-        monkeypatch: pytest.MonkeyPatch) -> None:
-    terminal = examples.Terminal()
-    terminal.found = [0] * 7
-    monkeypatch.setattr(terminal, "is_in_foreground", lambda: True)
-    for name in ("tcgetattr", "tcsetattr"):
-        monkeypatch.setattr(termios, name, Mock(side_effect=termios.error(4, "Interrupted")))
-    monkeypatch.setattr(select, "select", Mock(side_effect=OSError(5, "Gone")))
-    assert terminal.read() == ""
-    terminal.give_back()
 
 
 @pytest.mark.parametrize(("line", "change"), [
