@@ -7,9 +7,9 @@
 
     chart        speed against accuracy; --save draws it as .png, .svg or .pdf
     stability    where methods fail
-    EXAMPLE      its number (see -h); default 0, for chart and stability 10
+    EXAMPLE      its number, listed by -h; default 0, for chart and stability 10
     d            details after each line: position, velocity, frame rate
-    NAME=VALUE   a setting (see -h), on top of the example's own
+    NAME=VALUE   a setting, listed by -h, on top of the example's own
     --fast       no pacing, no pauses, no keys: for a pipe or a file
     --frames N   stop after N frames; without it, after 50000
 """
@@ -47,8 +47,8 @@ def setting(default: Any, meaning: str, allowed: tuple[Any, ...] = (False, True)
 class Scene:
     """The settings; names carry their units. Raises BadInput (a ValueError) for a wrong value.
 
-    No scene ever changes: step, below, returns a new state. The methods by default are such as do
-    for any force; exact, rewind and replay are right, but for a constant a alone.
+    A scene never changes. The car's state, x and v, does: step returns the new one. The default
+    methods would do for any force; exact, rewind and replay are right, but for a constant a only.
     """
 
     x_m: float = setting(1.1, "starting position", (-1000, 1000), "m")
@@ -58,16 +58,16 @@ class Scene:
     right_edge_m: float = setting(2.2, "the right wall", (-1000, 1000), "m")
     CR: float = setting(0.8, "coefficient of restitution: speed after / before a bounce", (0, 1))
     motion: str = setting("backward", "how the car is moved", ("forward", "backward", "exact"))
-    correction: str = setting("rebound", "how a collision is settled",
+    correction: str = setting("rebound", "stickiness correction: how a collision is settled",
                               ("none", "surface", "rebound", "rewind", "replay"))
     fps_target: float = setting(30.0, "frames a second; time step 1/fps_target", (0.1, 1000), "1/s")
-    use_observed_dt: bool = setting(False, "the step is the observed length of the frame before")
-    jitter: float = setting(0.0, "frames vary in length: 0.25 is by up to a quarter", (0, 0.9))
+    use_observed_dt: bool = setting(False, "the step is how long the frame before took")
+    jitter: float = setting(0.0, "frames vary in length, 0.25: by up to a quarter", (0, 0.9))
     auto_off: bool = setting(True, "stop when the car rests against a wall")
     m_to_px: float = setting(55.0, "zoom; a pixel is a character", (0.001, 1000), "px/m")
     width_px: int = setting(135, "width of the picture, which begins at x = 0", (10, 1000), "px")
     show_start_mark: bool = setting(False, "draw a . where the car started")
-    show_collision_mark: bool = setting(True, "in a collision, draw a 0 where the move alone ended")
+    show_collision_mark: bool = setting(True, "draw a 0 where a car beyond a wall was found")
     show_exact_mark: bool = setting(False, "draw an o where the car truly is")
 
     def __post_init__(self) -> None:
@@ -84,9 +84,9 @@ class Scene:
 #
 # v changes during the frame. Euler's methods hold it constant: forward takes the frame's first v,
 # backward (for a constant a the same as semi-implicit Euler) its last. Both are of first order:
-# half the dt, half the error after a given time. exact has no error at any dt. Another force would
-# come in here, as an a that depends on x and v; exact, rewind and replay need a constant a.
-# E = v^2/2 - a x is the car's energy per kilogram. In free flight it should not change.
+# half the dt, half the error after a given time. exact has no error at any dt. (For another force,
+# step would work out a from x and v before each move.) E = v^2/2 - a x is the car's energy per
+# kilogram. In free flight it should not change.
 
 State = tuple[float, float]  # x_m, v_mps
 
@@ -109,44 +109,45 @@ MOTIONS = {"forward": forward, "backward": backward, "exact": exact}
 
 # ==== 3. Colliding: the stickiness corrections ==================================================
 #
-# The move ended beyond a wall, where a car may stick. A correction takes the x and v that the move
-# ended with, the wall, a and CR, and returns a better x and v. They come in the order of how much
-# of the frame's rest, the time after the bounce, they follow: none and surface nothing, rebound a
-# flight without a pull, rewind one under the pull, and replay further bounces too. In their texts
+# The move ended beyond a wall. Left there, the car may stick. A correction takes the x and v that
+# the move ended with, the wall, a and CR, and returns better ones. After the bounce, a part of the
+# frame is left: none and surface ignore it, rebound flies on without the pull, rewind under the
+# pull, and replay settles further bounces as well. In their texts
 #     overlap        is how far x is beyond the wall,
 #     off the wall   is back towards the track,
 #     g              is an acceleration that pulls into the wall.
 #
-# The law of the hops explains chart and map. At CR = 1 every hop off the wall that the car is
-# pulled to should last as long as the one before. It lasts so many frames longer, which add up:
+# The law of the hops explains chart and map. At CR = 1 all hops off the wall that the car is pulled
+# to should last equally long. Each lasts more frames than the one before, by a sum of two numbers:
 #                      none 0    surface +1    rebound +2
 #     forward  +2        +2          +3            +4
 #     exact     0         0          +1            +2
 #     backward -2        -2          -1             0
-# Why: a car that leaves the wall at w is back after 2 w/(g dt) frames, so g w dt/2 more of E is one
-# frame more. Euler's flight changes E by g^2 dt^2/2 in each of these frames: two frames. Then the
-# car is found 0 to w dt beyond the wall, on average w dt/2. surface lifts it by that at an
-# unchanged speed: one frame (in every hop; the others on average). rebound lifts it by twice that:
-# two. By a sum k, E grows by k g^2 dt/4 a second: above 0 the car gains energy, below 0 it loses
-# it. At 0, exact + none keeps E, backward + rebound wanders. With none, the trap may come first.
+# Why: a car that leaves the wall at w is back after 2 w/(g dt) frames. There E = w^2/2, so g w dt/2
+# more of E is one frame more. Euler's flight changes E by g^2 dt^2/2 in each frame, by g w dt in
+# all: two frames. Then the car is found 0 to w dt beyond the wall, on average w dt/2. surface lifts
+# it by that at an unchanged speed: one frame (in every hop, as frames are whole). rebound lifts it
+# by twice that: two. So with the sum k, E grows by k g^2 dt/4 a second: above 0 the car gains
+# energy, below 0 it loses it. exact + none keeps E in every hop, backward + rebound on average
+# only: it wanders. With none, the car may be stuck first.
 
 def none(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
-    """Leave the car where it is: a trap.
+    """Reverse v, but leave the car beyond the wall: a trap.
 
-    Slowed by CR < 1, or pulled into the wall, it may not be out one frame later. Then v is reversed
-    once more, now into the wall. At CR < 1 the swings die down, until each frame begins at
-    CR g dt/(1 + CR) off the wall and ends at g dt/(1 + CR) into it. forward moves the car by the
-    first speed, and it creeps out; backward by the second, and it sinks by g dt^2/(1 + CR) a frame
-    (example 3); exact by their mean. A pull off the wall reverses all signs.
+    Slowed by CR < 1, or pulled into the wall, it may still be beyond one frame later. Then v is
+    reversed again, into the wall, and so on. At CR < 1 the swings die down, until each frame begins
+    at a speed of CR g dt/(1 + CR) off the wall and ends at g dt/(1 + CR) into it. forward moves the
+    car by the first: it creeps out. backward moves it by the second: it sinks by g dt^2/(1 + CR) a
+    frame (example 3). exact, by their mean, sinks too. A pull off the wall does the opposite.
     """
     return x_m, -CR * v_mps
 
 def surface(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
-    """Put the car on the wall, so that it is never stuck. It leaves the wall up to dt late."""
+    """Put the car on the wall, so that it cannot sink in. It leaves the wall up to dt late."""
     return wall_m, -CR * v_mps
 
 def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
-    """Put the car CR * overlap off the wall. If nothing pulls at it, that is where it is by now.
+    """Put the car CR * overlap off the wall, where it would be by now if nothing pulled at it.
 
     With CR * overlap longer than the track, it is thrown through the far wall (example 14).
     """
@@ -157,26 +158,26 @@ def arrival(d_m: float, u_mps: float, g_mps2: float) -> tuple[float, float]:
     """How long to a wall d_m ahead, and how fast there: t_s, w_mps. u and g are towards it."""
     # The speed w at the wall, from energy: w^2 = u^2 + 2 g d. (max: for round-off.)
     w_mps = math.sqrt(max(0.0, u_mps * u_mps + 2 * g_mps2 * d_m))
-    # The time t, from the mean velocity, d = (u + w)/2 t, or from w = u + g t: whichever subtracts
-    # nothing, as the difference of two nearly equal numbers is mostly round-off.
+    # The time t, from the mean velocity, d = (u + w)/2 t, or from w = u + g t: whichever only adds,
+    # as the difference of two nearly equal numbers is mostly round-off.
     return (2 * d_m / (u_mps + w_mps) if u_mps > 0 else (w_mps - u_mps) / g_mps2), w_mps
 
 def rewind(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Go back to the wall, bounce there, and go on for as long as the car was beyond.
 
     Right for the exact motion, in a frame that holds one bounce and whose move ends beyond the wall
-    (example 10). A second bounce it cannot settle. And where the pull has brought the car back to
-    the track by the frame's end, no collision is found: a missed event (example 18).
+    (example 10). It cannot settle a second bounce. And where the pull brings the car back before
+    the frame ends, no collision is found: a missed event (example 18).
     """
-    # Backwards in time v changes its sign and a does not: the way back is an arrival at the wall.
+    # Run time backwards: v changes its sign, a does not, and the car arrives at the wall.
     side = math.copysign(1, x_m - wall_m)  # 1 beyond the right wall, -1 beyond the left one
     t_s, w_mps = arrival(abs(x_m - wall_m), side * v_mps, -side * a_mps2)
     x_m, v_mps = exact(wall_m, -side * CR * w_mps, a_mps2, t_s)
-    is_beyond_again = (x_m - wall_m) * side > 0  # after a second bounce: leave it on the wall
+    is_beyond_again = (x_m - wall_m) * side > 0  # it would bounce again: leave it on the wall
     return (wall_m if is_beyond_again else x_m), v_mps
 
 CORRECTIONS = {"none": none, "surface": surface, "rebound": rebound, "rewind": rewind}
-EXACT_ONLY = ("rewind", "replay")  # replay, below, is no correction: it replaces the move
+EXACT_ONLY = ("rewind", "replay")  # replay, below, does not correct the move: it replaces it
 
 def step(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> tuple[float, float, float | None]:
     """One frame of dt_s: move the car, settle any collision. Returns x_m, v_mps, mark_m.
@@ -190,10 +191,11 @@ def step(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> tuple[float, fl
         # A move that ends on the track can have been beyond a wall only if v has changed its sign.
         if is_beyond or v_mps * free_mps < 0:
             x_m, v_mps = replay(scene, x_m, v_mps, dt_s)
-            return x_m, v_mps, free_m if is_beyond or v_mps != free_mps else None
+            is_bounce = is_beyond or v_mps != free_mps
+            return x_m, v_mps, free_m if is_bounce else None
     elif is_beyond:
-        correct = CORRECTIONS[scene.correction]
-        return *correct(free_m, free_mps, on_track_m, scene.a_mps2, scene.CR), free_m
+        correction = CORRECTIONS[scene.correction]
+        return *correction(free_m, free_mps, on_track_m, scene.a_mps2, scene.CR), free_m
     return free_m, free_mps, None
 
 GRAZE_M = 5e-11  # far above the round-off of a position
@@ -201,14 +203,13 @@ GRAZE_M = 5e-11  # far above the round-off of a position
 def replay(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> State:
     """Replace the move: follow the exact motion from the frame's start, from wall to wall.
 
-    Right for a frame of any length, with several bounces (example 15) or infinitely many (12): the
-    tests compare it with 60-digit decimals. See a ball in a room: the pull is gravity, the wall
-    that it pulls to the floor (without a pull, the left one), the other the ceiling, h the height.
-    The loop ends: from the floor the ball reaches the ceiling, which takes time, or it hops.
+    Right for a frame of any length, with several bounces (example 15) or infinitely many (12); the
+    tests compare it with 60-digit decimals. Think of a ball in a room: the pull is gravity. The
+    wall that it pulls to is the floor (without a pull, the left one), the other is the ceiling. h
+    is the height. The loop ends: from floor to ceiling takes time, and a ball too slow for it hops.
 
-    If it turns less than GRAZE_M behind the ceiling, that is a miss, as an error of 1e-16 in h
-    would be one of 1e-8 in v there. Each miss shifts the car by up to 4 sqrt(room GRAZE_M), or
-    4e-5 m by default.
+    A ball that turns less than GRAZE_M behind the ceiling misses it: there, an error of 1e-16 in h
+    is one of 1e-8 in v. Each miss shifts the car by up to 4 sqrt(room GRAZE_M), by default 4e-5 m.
     """
     up, floor_m = (-1, scene.right_edge_m) if scene.a_mps2 > 0 else (1, scene.left_edge_m)
     room_m, g_mps2, CR = scene.right_edge_m - scene.left_edge_m, abs(scene.a_mps2), scene.CR
@@ -220,7 +221,7 @@ def replay(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> State:
             flight_s, w_mps = arrival(room_m - h_m, v_mps, -g_mps2)
             bounced = room_m, -CR * w_mps
         elif v_mps < 0 or h_m > 0:
-            # Falling, or above the floor, to which it will fall.
+            # Falling, or above the floor and about to fall.
             flight_s, w_mps = arrival(h_m, -v_mps, g_mps2)
             bounced = 0.0, CR * w_mps
         else:
@@ -235,7 +236,7 @@ def replay(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> State:
     return scene.to_track(floor_m + up * h_m), up * v_mps  # round-off must not leave it beyond
 
 def hops(v_mps: float, g_mps2: float, CR: float, t_s: float) -> tuple[float, float]:
-    """Take at once all whole hops that fit into t_s. Returns the time left, and v off the floor.
+    """Take at once all whole hops that fit into t_s. Returns the time still to fly, and v.
 
     The first hop lasts T = 2 v/g, each next one CR times as long, and all of them, infinitely many,
     T (1 + CR + CR^2 + ...) = T/(1 - CR). Then the ball is at rest: the Zeno point.
@@ -244,15 +245,14 @@ def hops(v_mps: float, g_mps2: float, CR: float, t_s: float) -> tuple[float, flo
     zeno_s = hop_s / (1 - CR) if CR < 1 else math.inf
     if hop_s > t_s:  # not even one
         return t_s, v_mps
-    if zeno_s <= t_s or t_s + hop_s == t_s:  # all, or each too short to be told from 0
+    if zeno_s <= t_s or t_s + hop_s == t_s:  # all fit, or one is too short to count
         return 0.0, 0.0
     if CR == 1:
         return math.fmod(t_s, hop_s), v_mps
-    # n hops last zeno (1 - CR^n) = t, solved for n. log1p(y) is log(1 + y) and expm1(y) e^y - 1,
-    # without the rounding of 1 + y that would spoil them near CR = 1.
+    # zeno (1 - CR^n) = t gives n. log1p(y) is log(1 + y), expm1(y) is e^y - 1, right for a small y.
     n = math.floor(math.log1p(-t_s / zeno_s) / math.log(CR))
     n_hops_s = -zeno_s * math.expm1(n * math.log(CR))
-    return max(0.0, t_s - n_hops_s), v_mps * CR**n  # max: round-off must not make it negative
+    return t_s - n_hops_s, v_mps * CR**n
 
 
 # ==== 4. Drawing: one frame, one line ===========================================================
@@ -295,10 +295,10 @@ def planned(scene: Scene) -> Iterator[tuple[float, float]]:
         yield (1 + jitter * (2 * (0.618 * frame % 1) - 1)) / fps, fps
 
 def paced(scene: Scene, keys: Keys) -> Iterator[tuple[float, float]]:
-    """Yield, when a frame is due, the length that moves the car, and the observed rate in FPS.
+    """Wait until each frame is due. Yield how long the last one took, and the rate in FPS.
 
-    That length is the last frame's or, after a pause or a stall, what it should have been: no leap.
-    Deadlines are absolute: sleeping for dt after each frame would add what the frame itself takes.
+    After a pause or a stall, yield instead what was planned, so that the car does not leap. The
+    deadlines are absolute: a sleep of dt after each frame would add the time to compute and print.
     """
     began_s = deadline_s = time.perf_counter() - 1 / scene.fps_target  # so the first is due at once
     for due_s, _ in planned(scene):
@@ -315,14 +315,14 @@ def paced(scene: Scene, keys: Keys) -> Iterator[tuple[float, float]]:
             deadline_s = now_s
 
 def truth_of(scene: Scene) -> Scene:
-    """The scene by the exact solution, which has to start on the track."""
+    """The same scene, solved exactly. It has to start on the track."""
     return replace(scene, motion="exact", correction="replay", x_m=scene.to_track(scene.x_m))
 
 def is_at_rest(scene: Scene, v_mps: float, recent_m: deque[float]) -> bool:
-    """Whether a wall holds the car: the one that it is pulled to or, without a pull, either.
+    """Whether the car rests against the wall that it is pulled to or, without a pull, against any.
 
-    The mean of 1/3 s tells, since by Euler's methods v is never 0 at a wall. Without a pull v must
-    be 0 as well: a slow car leaves the wall again.
+    Its mean position tells: by Euler's methods a car that leans on a wall may have any small v.
+    Without a pull v must be 0 as well, as a slow car leaves the wall again.
     """
     mean_m = sum(recent_m) / len(recent_m)
     is_left = scene.a_mps2 <= 0 and abs(mean_m - scene.left_edge_m) <= 0.001
@@ -345,7 +345,7 @@ def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None
         x_m, v_mps, mark_m = step(scene, x_m, v_mps, dt_s)
         if true_m is not None:
             true_m, true_mps, _ = step(truth, true_m, true_mps, dt_s)
-        # Draw, in colours where somebody watches.
+        # Draw, on a terminal in colours.
         line = render_track(scene, x_m, mark_m, true_m)
         text = details_text(x_m, v_mps, fps, true_m) if details else ""
         sys.stdout.write(f"{inked(line) if keys else line}{text}\n")
@@ -390,8 +390,8 @@ def say(text: str, indent: int = 0) -> None:
 
 SPAN_S, CUTS = 20, 9  # of chart and map: simulated seconds, runs of each method
 MEASURED = ("The scene's own motion, correction and rate do not matter. Each method runs nine "
-            "times for 20 simulated seconds, its frames a ninth of a frame later each time. The "
-            "worst of these nine cuts counts.")
+            "times for 20 simulated seconds, each run starting a ninth of a frame later. The worst "
+            "of these nine cuts counts.")
 CHART_FPS = (10, 30, 60, 120, 240, 480, 960, 1920, 3840)  # multiples of 10, for simulate
 SERIES = {"a": ("backward", "surface"), "b": ("backward", "rebound"), "c": ("exact", "rebound"),
           "d": ("exact", "rewind"), "e": ("exact", "replay")}
@@ -406,8 +406,8 @@ def simulate(scene: Scene, fps: int, cut: int) -> Iterator[tuple[State, State]]:
     """Run for SPAN_S; yield the car's state and the true one, every 0.1 s or every longer frame.
 
     Where in a frame the car meets a wall is luck. So cut k, 0 to 8, begins (k + 1/3)/9 of a frame
-    after the start (where rest on a frame's edge would be a special case), at the true state of
-    that moment. The truth is one step of any length, so that no error adds up.
+    after the start, at the true state of that moment (and none at the start itself, as hops from
+    rest on a frame's edge may last whole frames). One step is the truth: so no error adds up.
     """
     truth = truth_of(scene)
     shift_s = (cut + 1 / 3) / CUTS / fps
@@ -434,8 +434,8 @@ def first_within(series: list[tuple[float, float]], pixel_m: float) -> str:
     """From which rate on a series stays within a pixel, and what that rate costs."""
     for index, fps in enumerate(CHART_FPS):
         if max(error_m for error_m, _ in series[index:]) <= pixel_m:
-            return f"{fps:5} FPS{two_digits(series[index][1]):>6}"
-    return f" > {CHART_FPS[-1]} FPS    "
+            return f"{fps:9}{two_digits(series[index][1]):>6}"
+    return f"   > {CHART_FPS[-1]}      "
 
 def table(scene: Scene) -> Points:
     """Measure every series at every rate, and print it row by row."""
@@ -451,13 +451,13 @@ def table(scene: Scene) -> Points:
             points[letter].append((error_m, us))
             row += f"{error_m:9.1e}{two_digits(us):>6}"
         print(row, flush=True)
-    print(f"Within a pixel ({1000 / scene.m_to_px:.3g} mm) in all cuts: from which rate on, its us")
+    print(f"Within a pixel ({1000 / scene.m_to_px:.3g} mm) in all cuts from this rate (FPS) on:")
     cells = (first_within(series, 1 / scene.m_to_px) for series in points.values())
     print(f"    {''.join(cells)}\n")
     return points
 
 def error_px(error_m: float) -> int:
-    """An error's column: eight to a power of ten, from 1e-6 to 10 m; beyond these, the edge."""
+    """An error's column: eight a power of ten, from 1e-6 to 10 m. Others are drawn at the edge."""
     return round(8 * math.log10(min(max(error_m, 1e-6), 10) / 1e-6))
 
 def picture(points: Points, pixel_m: float) -> None:
@@ -492,7 +492,7 @@ def new_figure(file: str) -> Any:
 
 def save(figure: Any, file: str, points: Points, pixel_m: float, heading: str) -> None:
     """Draw the points with matplotlib as well. Raises BadInput where it cannot save them."""
-    figure.suptitle(f"Speed against accuracy\n{textwrap.fill(heading, 100)}", fontsize=10)
+    figure.suptitle(f"Speed against accuracy\n{textwrap.fill(heading, 126)}", fontsize=8)
     axes = figure.add_subplot(
         xscale="log", yscale="log", xlabel=f"largest error in {SPAN_S} s (m): better to the left",
         ylabel="processor time for a simulated second (\N{MICRO SIGN}s):\nbetter upwards")
@@ -529,23 +529,23 @@ VERDICTS = {  # from the worst to the best
     "G": "gain: in the last 5 s over 1 % more energy than the true car, on average",
     "L": "loss: over 1 % less energy",
     "P": "energy within 1 %, but more than a drawn pixel off at some sample",
-    "-": "within a drawn pixel of the truth at every sample (every 0.1 s)",
+    "-": "within a drawn pixel of the truth at every sample",
 }
 
 def verdict(scene: Scene, fps: int, cut: int) -> str:
-    """The letter of one run: of X, S, -, G, L and P, the first that fits. W takes several runs."""
+    """The letter of one run: the first of X, S, -, G, L and P that fits. W takes several runs."""
     states = list(simulate(scene, fps, cut))
-    last = states[len(states) * 3 // 4:]  # 5 s of 20
+    ending = states[len(states) * 3 // 4:]  # 5 s of 20
     beyond_m = [x_m - scene.to_track(x_m) for (x_m, _), _ in states]
     track_m = scene.right_edge_m - scene.left_edge_m
     if max(map(abs, beyond_m)) > track_m:
         return "X"
-    if min(beyond_m[-len(last):]) > 0 or max(beyond_m[-len(last):]) < 0:
+    if min(beyond_m[-len(ending):]) > 0 or max(beyond_m[-len(ending):]) < 0:
         return "S"
     if max(abs(x_m - true_m) for (x_m, _), (true_m, _) in states) <= 1 / scene.m_to_px:
         return "-"
     gain = sum((v_mps**2 - true_mps**2) / 2 - scene.a_mps2 * (x_m - true_m)
-               for (x_m, v_mps), (true_m, true_mps) in last) / len(last)  # in E (section 2)
+               for (x_m, v_mps), (true_m, true_mps) in ending) / len(ending)  # in E
     one_percent = 0.01 * (scene.v_mps**2 / 2 + abs(scene.a_mps2) * track_m)
     return "G" if gain > one_percent else "L" if gain < -one_percent else "P"
 
@@ -571,11 +571,11 @@ def stability(scene: Scene, heading: str) -> None:
                           for fps in MAP_FPS)
             print(f"{f'{motion} + {correction}':20}{inked(row)}", flush=True)
     print(f"\n{rates}\n")
-    say("Each letter is the worst of nine cuts: X is the worst, - the best. It is small where only "
-        "some cuts are so bad. At CR < 1, G mostly means that the car does not come to rest. The "
-        "1 % is of v^2/2 at the start plus |a| times the track's length.")
     for letter, meaning in VERDICTS.items():
         print(f"{inked(letter)}  {meaning}")
+    say("Each letter is the worst of nine cuts, small where only some cuts are so bad. Samples are "
+        "taken every 0.1 s, or each longer frame. The 1 % is of v^2/2 at the start plus |a| times "
+        "the track's length. At CR < 1, G mostly means that the car does not come to rest.")
 
 
 # ==== 9. Checking a scene =======================================================================
@@ -628,17 +628,19 @@ OPTIONS = {"d": "the film", "--fast": "the film", "--frames": "the film", "--sav
 
 def in_words(scene: Scene) -> str:
     """How the car starts, in words."""
-    side = ("to the left", "to the right")
+    ways = ("to the left", "to the right")
     speed, pull = "at rest", "not pulled"
     if scene.v_mps:
-        speed = f"moving {side[scene.v_mps > 0]} at {abs(scene.v_mps):g} m/s"
+        speed = f"moving {ways[scene.v_mps > 0]} at {abs(scene.v_mps):g} m/s"
     if scene.a_mps2:
-        pull = f"pulled {side[scene.a_mps2 > 0]} at {abs(scene.a_mps2):g} m/s^2"
-    return f"The car starts at x = {scene.x_m:g} m, {speed}, {pull}; CR={scene.CR:g}."
+        pull = f"pulled {ways[scene.a_mps2 > 0]} at {abs(scene.a_mps2):g} m/s^2"
+    return (f"The car starts at x = {scene.x_m:g} m, {speed}, {pull}; walls at "
+            f"{scene.left_edge_m:g} and {scene.right_edge_m:g} m; CR={scene.CR:g}.")
 
 def method_in_words(scene: Scene) -> str:
     """Motion, correction, frame rate, and whatever else is not the default, in words."""
-    told = ("x_m", "v_mps", "a_mps2", "CR", "motion", "correction", "fps_target")
+    told = ("x_m", "v_mps", "a_mps2", "left_edge_m", "right_edge_m", "CR", "motion", "correction",
+            "fps_target")
     others = "".join(f", {row.name}={getattr(scene, row.name)}" for row in fields(scene)
                      if row.name not in told and getattr(scene, row.name) != row.default)
     return (f"Motion {scene.motion}, correction {scene.correction}, {scene.fps_target:g} frames a "
@@ -661,7 +663,7 @@ def fitted(scene: Scene, details: bool) -> Scene:
 def tell_of_walls(scene: Scene) -> None:
     """Say that a wall is outside the picture, and what would show both."""
     if round(scene.left_edge_m * scene.m_to_px) < 0:
-        say("A wall is to the left of x = 0, where the picture begins: shift the scene to see it.")
+        say("A wall is to the left of x = 0, where the picture begins: add to x_m and both walls.")
     elif round(scene.right_edge_m * scene.m_to_px) >= scene.width_px:
         enough = math.floor(1000 * (scene.width_px - 1) / scene.right_edge_m) / 1000
         say(f"The picture ends before a wall: m_to_px={enough:g} would show both.")
@@ -753,7 +755,7 @@ def obey(words: list[str]) -> int:
             raise BadInput(f"{option} is for {OPTIONS[option]}, not for {command}")
     example = EXAMPLES.get(number, OWN_SCENE)
     settings = dict(example.settings)
-    if command in COMMANDS:  # they run all methods; the example's own might not suit the changes
+    if command in COMMANDS:  # they run all methods; the example's might not allow the changes
         settings.pop("correction", None)
     scene = Scene(**settings | changes)
     changed = "".join(f", {name}={value}" for name, value in changes.items())

@@ -48,8 +48,8 @@ EXAMPLES = {
         "left_edge_m": 0.5, "right_edge_m": 17.5, "m_to_px": 7.0, "width_px": 126,
         "fps_target": 1 / 0.015, "correction": "surface", "auto_off": False,
         "show_collision_mark": False},
-        "An air track: * is the car, | are the walls, and each line is one moment. Where is the "
-        "car in the end, and after how many bounces? It never stops: press x.",
+        "An air track: * is the car, | are the walls, and each line is one moment. Where will the "
+        "car be after a minute? End the film with x.",
         "It lies at the left wall, to which it is pulled. It lost 20 % of its speed in each of 26 "
         "bounces, the last in frame 2930 (t = 44 s). From then on each frame pulls it into the "
         "wall and puts it back. python airtrack.py -h lists the tour.",
@@ -59,74 +59,73 @@ EXAMPLES = {
         "Keep your eyes on the bottom row, or cover the rows above it with a sheet of paper: there "
         "the car moves. The rows above are its past. Before each bounce, say where it will turn.",
         "It was pulled to the left, and kept 70 % of its speed at each bounce. So it came back "
-        "about half as far each time (0.7^2 = 0.49): 0.87 m, 0.46 m, 0.21 m. After 251 frames, the "
-        "last third of a second at rest, the run stops by itself.", pause_s=5.0),
+        "about half as far each time (0.7^2 = 0.49): 0.87 m, 0.46 m, 0.21 m from the wall. After "
+        "251 frames, a third of a second at rest, the run stops by itself.", pause_s=5.0),
     2: Example("No correction", {
         "x_m": 1.65, "v_mps": 2.7, "CR": 1.0, "correction": "none", "show_collision_mark": False},
         "Nothing puts the car back on the track after a collision. How far does it go into the "
-        "walls, and does it come out again? It never stops: press x.",
+        "walls, and does it come out again? End the film with x.",
         "It goes into the walls by up to 8 cm, nearly as far as it moves in a frame, 9 cm. It is "
         "elastic (CR=1) and nothing pulls at it, so it comes back out as fast as it went in."),
     3: Example("No correction, losing speed", {
         "x_m": 2.0, "a_mps2": -1.5, "CR": 0.6, "correction": "none", "auto_off": False,
         "show_collision_mark": False},
         "Now the car loses speed in a bounce, and it is pulled to the left. Does it come back from "
-        "the left wall? Give it ten seconds, then press x.",
+        "the left wall? Give it ten seconds, then end the film with x.",
         "In frame 46 (t = 1.53 s) the car is beyond the left wall. Its velocity is reversed, but "
         "60 % of the speed is too little to get out in one frame. So the next frame reverses it "
-        "again, now into the wall, and so on. The swings die down. From frame 60 on (see d) each "
-        "frame begins at 0.02 m/s out of the wall, and by the pull it ends at 0.03 m/s into it: "
-        "the car sinks by 1 mm a frame. At full width it is out of the picture from frame 273 on: "
-        "<", pause_s=4.0),
+        "again, now into the wall, and so on. The swings die down. From frame 60 on each frame "
+        "begins at 0.02 m/s out of the wall (see d). The pull turns that into 0.03 m/s into it, of "
+        "which 60 %, reversed, are 0.02 again. So the car sinks by 1 mm a frame. At full width it "
+        "is out of the picture from frame 273 on: <", pause_s=4.0),
     4: Example("A high frame rate", {
         "x_m": 0.2, "v_mps": 10.0, "a_mps2": -10.0, "CR": 0.8, "fps_target": 300.0,
         "show_collision_mark": False},
-        "Each line is a 300th of a second. The run stops by itself. Then scroll back, as far as "
-        "your terminal keeps the lines: what do the shrinking bounces look like?",
-        "A bounce is hundreds of lines long, and the shrinking bounces are drawn as a tail. The "
-        "run stops after 1880 frames. The car starts just beyond the left wall, at 10 m/s. Each of "
-        "the first two frames finds it in collision, so it leaves the wall at 6.4 m/s."),
+        "Each line is a 300th of a second. Wait for its end. Then scroll back, as far as your "
+        "terminal keeps the lines: what does the motion look like?",
+        "The first bounces are hundreds of lines long, the last ones draw a tail. The run stops "
+        "after 1880 frames. The car starts just beyond the left wall, at 10 m/s. Each of the first "
+        "two frames finds it in collision and takes 20 %, so it leaves the wall at 6.4 m/s."),
     5: Example("Where each collision was found", {
         "x_m": 2.0, "v_mps": 3.0, "a_mps2": 2.0, "CR": 0.7},
         "The car is pulled to the right. A 0 is where the move alone put it, beyond the wall. "
         "Where is the * in the same line? Does every collision show a 0?",
-        "The * is on the other side of the wall, at 70 % of that distance. Most collisions are too "
-        "near the wall to show a 0: at full width 7 of 19 do, the first in frame 67; a narrower "
-        "picture may show others. With fps_target=10 each of the first five bounces does (press x "
-        "to end that film). The car is at rest after 236 frames."),
+        "The * is on the track, at 70 % of the distance from the wall to the 0. Most collisions "
+        "are too near the wall to show a 0: at full width 7 of 19 do, the first in frame 67; a "
+        "narrower picture may show others. With fps_target=10 each of the first five bounces does "
+        "(press x to end that film). The car is at rest after 236 frames."),
     6: Example("Example 5 zoomed out", {
         "x_m": 2.0, "v_mps": 3.0, "a_mps2": 2.0, "CR": 0.7, "m_to_px": 30.0},
-        "The drawing is smaller than in example 5. Is the motion another one? Count the frames.",
+        "The drawing is smaller than in example 5. Does the motion change? Count the frames.",
         "Only the drawing changes: at full width the walls are 58 columns apart instead of 107. "
         "With d the figures are those of example 5, and the run ends after 236 frames again."),
     7: Example("Elastic, small steps", ELASTIC | {"fps_target": 240.0},
         "No speed is lost in a bounce. So the car should come back to the start mark, the dot at 2 "
-        "m, every time. Does it? It never stops: press x.",
+        "m, every time. Does it? End the film with x.",
         "Nearly. It turns 1.1 cm short of the mark, first in frame 633 (t = 2.64 s), where at full "
-        "width *. is drawn; then it turns at the mark, and so on, by turns."),
+        "width *. is drawn. The next time it turns at the mark, then short of it again."),
     8: Example("Elastic, large steps", COARSE,
         "Example 7 at 10 FPS: the car moves up to 0.26 m in a frame. Where does it turn now? Watch "
-        "four turns, then press x.",
+        "four turns, then end the film with x.",
         "After the first bounce it turns at 1.88 m, 12 cm short of the start mark: the correction "
         "does not know when in the frame the car met the wall. The error of the second bounce "
-        "undoes that of the first: it turns at the mark. And so on, alternately. That is its start "
-        "from rest: all its speeds are multiples of a dt, and its errors repeat themselves."),
+        "undoes that of the first: it turns at the mark. This goes on, as it starts at rest: its "
+        "speeds are whole multiples of a dt, so the same two errors come by turns."),
     9: Example("Elastic, large and irregular steps", COARSE | IRREGULAR,
         "Example 8 with irregular frames: each is up to a quarter longer or shorter (jitter), and "
-        "moves the car by the observed length of the frame before. Where does it turn now? Watch "
-        "for half a minute, then press x.",
+        "moves the car for as long as the frame before took. Where does it turn? Press x after 30 "
+        "s.",
         "The errors of the bounces are irregular too. So the car turns elsewhere each time: first "
         "at 1.81 m, and after about half a minute beyond the start mark as well. It wanders. With "
         "--fast, where no clock is observed, the next turns are at 1.68, 1.59 and 1.51 m."),
     10: Example("The exact solution", EXACT,
         "Only 10 FPS, but exact formulas. Where does the car turn? To see the first bounce, in "
-        "frame 14, press p at once, then s fourteen times. It never stops: press x.",
+        "frame 14, press p at once, then s fourteen times. End the film with x.",
         "The car moves by the formulas of kinematics, and each bounce is worked out at its own "
         "moment. So it comes back to the start mark, the dot at 2 m, every time. In example 8, by "
         "Euler's method and the rebound, it does not."),
     11: Example("The exact solution, irregular steps", EXACT | IRREGULAR,
-        "Example 10 with the irregular frames of example 9. Where does the car turn? It never "
-        "stops: press x.",
+        "Example 10 with irregular frames. Where does the car turn? End the film with x.",
         "The exact solution does not depend on how the time is cut into frames, so the car comes "
         "back to the start mark all the same."),
     12: Example("The exact solution, losing energy", EXACT | IRREGULAR | {
@@ -135,66 +134,64 @@ EXAMPLES = {
         "faster and faster. How many are there before it is at rest?",
         "Infinitely many, and all before t = 11.91 s, the Zeno point. A frame may hold many "
         "bounces, and one holds infinitely many: that takes replay. In the last ten of 122 frames "
-        "they are lower than a column: the car stands at the wall. Compare python airtrack.py 12 d "
-        "correction=rewind: there it hops on for eight frames more."),
+        "the bounces are too low to see. Compare python airtrack.py 12 d correction=rewind: there "
+        "it hops on for eight frames more."),
     13: Example("Forward Euler beside the truth", {
         "x_m": 0.25, "v_mps": 2.48, "a_mps2": -2.0, "CR": 1.0, "motion": "forward",
         "fps_target": 10.0, "show_exact_mark": True},
         "The * is moved by forward Euler, the o is the true car. In the first flight neither will "
         "reach the right wall. Which climbs higher, o or *? See both turn, then press x.",
-        "In frame 13 the * turns at 1.91 m; the o turned at 1.79 m, and neither has met a wall. "
-        "Forward Euler moves the car at the velocity of the frame's start: too fast on the way up, "
-        "too slow on the way down. Each step adds a^2 dt^2/2 = 0.02 m^2/s^2 to the energy v^2/2 - "
-        "a x. With motion=exact the * stays with the o until they meet the wall, in frame 25."),
+        "The * turned at 1.91 m, in frame 13, the o at 1.79 m, and neither had met a wall. Forward "
+        "Euler moves the car at the velocity of the frame's start: too fast on the way up, too "
+        "slow on the way down. Each step adds a^2 dt^2/2 = 0.02 m^2/s^2 to the energy v^2/2 - a x. "
+        "With motion=exact the * stays with the o until they meet the wall, in frame 25."),
     14: Example("Four metres a frame", QUICK,
         "The car moves 4 m a frame, on a track of 1.95 m. A < or a > says that it is out of the "
-        "picture. How far does it get? It never stops: press x.",
-        "The rebound puts it as far off the wall as it was beyond it, and that is beyond the far "
-        "wall: out to the left (<), out to the right (>), alternately, 4.1 m further every other "
-        "frame. It still bounces off walls that it has left behind. In a minute it is 1.2 km away "
-        "(see d)."),
+        "picture. How far does it get? End the film with x.",
+        "The rebound puts it as far off the wall as it was beyond it: beyond the far wall, out to "
+        "the left (<), out to the right (>), alternately, 4.1 m further every other frame. It "
+        "still bounces off walls that it has left behind. In a minute it is 1.2 km away (see d)."),
     15: Example("Four metres a frame, wall by wall", QUICK | {
         "motion": "exact", "correction": "replay"},
         "Example 14 by the exact solution, which settles every bounce. The car still moves 4 m a "
-        "frame. What will it look like? It never stops: press x.",
+        "frame. What will it look like? End the film with x.",
         "In a frame of 4 m the car goes from wall to wall and back, 3.9 m, and ends 0.1 m from "
         "where it was. So it seems to creep along the track, as wagon wheels in a film seem to "
         "turn slowly: the stroboscopic effect."),
     16: Example("Example 8 beside the truth", COARSE | {"show_exact_mark": True},
         "The o is the true car. When does the * leave it, and how far apart do they get? With d "
-        "you see the error. It never stops: press x.",
+        "you see the error. Give it 20 s, then end it with x.",
         "They are 2 cm apart in frame 2, and up to 0.9 m within 20 s. In flight, backward Euler "
         "moves the * at the velocity of the frame's end; and the rebound does not know when in the "
         "frame the bounce was."),
-    17: Example("An exact motion with a careless collision", COARSE | {
+    17: Example("Exact motion with the rebound", COARSE | {
         "motion": "exact", "show_exact_mark": True},
         "Now the motion is exact, but the correction is still the rebound. When does the * leave "
-        "the o? And does it gain energy or lose some? It never stops: press x.",
+        "the o? And does it gain energy or lose some? End the film with x.",
         "The * stays on the o until the first bounce, in frame 14, and then leaves it: by up to "
-        "1.8 m within 20 s. The motion is exact; what fails is the rebound. It lifts the car off "
-        "the wall without slowing it down. So the car gains energy at each bounce off the left "
-        "wall, to which it is pulled, and gives some back at the right one. Motion and collision "
-        "add up: 0 and +2. With correction=rewind the * stays on the o."),
-    18: Example("A turn just beyond the wall", {
+        "1.8 m within 20 s. What fails is the rebound. It lifts the car off the wall without "
+        "slowing it down. So the car gains energy at each bounce off the left wall, to which it is "
+        "pulled, and gives some back at the right one. To each hop the motion adds no frame, the "
+        "rebound 2 (see example 19). With correction=rewind the * stays on the o."),
+    18: Example("The exact solution at 4 FPS", {
         "x_m": 0.65, "v_mps": 5.0, "a_mps2": -8.0, "CR": 1.0, "motion": "exact",
         "correction": "rewind", "fps_target": 4.0, "show_exact_mark": True},
         "Press p at once, then s four times, and watch the right wall. What does the o do there, "
-        "and what does the *? Press x.",
+        "and what does the *? End the film with x.",
         "In frame 3 the o has bounced off the right wall, the * turned without a bounce. In frame "
         "4 they are about 0.4 m apart. The move of frame 3 goes 1 cm beyond the wall and ends back "
         "on the track, so no collision is found: a missed event. Any solver that looks for a "
-        "change of sign over a step may miss one, as scipy's solve_ivp says. With "
-        "correction=replay the * stays on the o."),
+        "change of sign over a step may miss one, scipy's solve_ivp too. With correction=replay "
+        "the * stays on the o."),
     19: Example("Elastic hops, counted", {
         "x_m": 0.84, "v_mps": 0.098, "a_mps2": -2.0, "CR": 1.0, "correction": "surface",
         "fps_target": 10.0, "show_exact_mark": True},
         "Nothing is lost in a bounce: the o bounces on for ever. And the *? Count its hops, in "
-        "lines from one bounce off the left wall to the next. The film stops by itself.",
-        "The hops of the * last 15, 14, 13 ... 2 lines, each one fewer than the one before, then "
-        "1. In frame 134 it is at rest. The flight by backward Euler makes each hop two frames "
-        "shorter, the surface makes it one longer: -2 and +1. Run 19 motion=exact, 0 and +1, and "
-        "count 18, 19, 20 ... Then foretell the other seven, from forward +2, exact 0, backward -2 "
-        "and none 0, surface +1, rebound +2: 19 motion=... correction=..."),
+        "lines from one bounce off the left wall to the next. End it when you have seen enough.",
+        "The hops of the * last 15, 14, 13 ... lines, each one fewer than the one before, down to "
+        "2 and 1, which are too low to see. In frame 134 it is at rest. In each hop backward Euler "
+        "makes -2 frames, surface +1; so do forward +2, exact 0, none 0, rebound +2. Foretell the "
+        "other eight, as python airtrack.py 19 motion=exact, and count, up to the right wall."),
 }
 OWN_SCENE = Example("Your own scene", {},
     "Between the walls only v_mps and a_mps2 move the car: without them it stands still. python "
@@ -455,6 +452,8 @@ class Keys:
             if not self.to_show and not self.pause_line:
                 self.say_paused(f"paused after frame {self.frame}, t = {self.t_s:.2f} s: "
                                 "p resumes, s steps, x quits")
+            elif self.to_show and self.pause_line:
+                self.say_paused("")
             time.sleep(min(SLICE_S, left_s) if self.to_show else SLICE_S)
         self.say_paused("")
         return was_paused
