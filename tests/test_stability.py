@@ -105,18 +105,6 @@ def test_hops_grow_by_the_sum_of_flight_and_collision(
         assert set(growth) == {flight + collision}
 
 
-@given(side=sides, u_mps=st.floats(0.1, 50), inside=st.floats(0, 1, exclude_min=True),
-       dt_s=st.floats(1e-3, 0.2))
-def test_from_the_surface_the_car_leaves_up_to_a_frame_late(
-        side: int, u_mps: float, inside: float, dt_s: float) -> None:
-    scene = Scene(correction="surface", CR=1, left_edge_m=-50, right_edge_m=50, x_m=0)
-    x_m = side * (50 - (1 - inside) * u_mps * dt_s)
-    after_m, after_mps, mark_m = step(scene, x_m, side * u_mps, dt_s)
-    assume(mark_m is not None)
-    true_m = side * (50 - inside * u_mps * dt_s)
-    assert (true_m - after_m) / after_mps == pytest.approx(inside * dt_s, abs=1e-9)
-
-
 # 5. Rewind. A car at a distance d from a wall, at u towards it, under an acceleration g towards it,
 #    is there after t1 at s, with s^2 = u^2 + 2 g d, and leaves it at CR s. Right to round-off is
 #    rewind where the frame holds this one bounce and its move ends beyond the wall. That is so in
