@@ -62,7 +62,7 @@ class Scene:
                               ("none", "surface", "rebound", "rewind", "replay"))
     fps_target: float = setting(30.0, "frames a second; time step 1/fps_target", (0.1, 1000), "1/s")
     use_observed_dt: bool = setting(False, "the step is how long the frame before took")
-    jitter: float = setting(0.0, "frames vary in length, 0.25: by up to a quarter", (0, 0.9))
+    jitter: float = setting(0.0, "frames vary in length by up to this part of it", (0, 0.9))
     auto_off: bool = setting(True, "stop when the car rests against a wall")
     m_to_px: float = setting(55.0, "zoom; a pixel is a character", (0.001, 1000), "px/m")
     width_px: int = setting(135, "width of the picture, which begins at x = 0", (10, 1000), "px")
@@ -321,8 +321,8 @@ def truth_of(scene: Scene) -> Scene:
 def is_at_rest(scene: Scene, v_mps: float, recent_m: deque[float]) -> bool:
     """Whether the car rests against the wall that it is pulled to or, without a pull, against any.
 
-    Its mean position tells: by Euler's methods a car that leans on a wall may have any small v.
-    Without a pull v must be 0 as well, as a slow car leaves the wall again.
+    For 1/3 s, longer than a turn, its mean position is within 1 mm of it: by Euler's methods the v
+    of a car that leans on a wall need not be 0. Without a pull it must be, or the car leaves again.
     """
     mean_m = sum(recent_m) / len(recent_m)
     is_left = scene.a_mps2 <= 0 and abs(mean_m - scene.left_edge_m) <= 0.001
