@@ -48,7 +48,7 @@ class Scene:
     """The settings; names carry their units. Raises BadInput (a ValueError) for a wrong value.
 
     A scene never changes. The car's state, x and v, does: step returns the new one. The default
-    methods would do for any force; exact, rewind and replay are right, but for a constant a only.
+    methods would do for any force; exact, rewind and replay are right for a constant a only.
     """
 
     x_m: float = setting(1.1, "starting position", (-1000, 1000), "m")
@@ -67,7 +67,7 @@ class Scene:
     m_to_px: float = setting(55.0, "zoom; a pixel is a character", (0.001, 1000), "px/m")
     width_px: int = setting(135, "width of the picture, which begins at x = 0", (10, 1000), "px")
     show_start_mark: bool = setting(False, "draw a . where the car started")
-    show_collision_mark: bool = setting(True, "draw a 0 where a car beyond a wall was found")
+    show_collision_mark: bool = setting(True, "in a collision, draw a 0 where the move ended")
     show_exact_mark: bool = setting(False, "draw an o where the car truly is")
 
     def __post_init__(self) -> None:
@@ -117,19 +117,19 @@ MOTIONS = {"forward": forward, "backward": backward, "exact": exact}
 #     off the wall   is back towards the track,
 #     g              is an acceleration that pulls into the wall.
 #
-# The law of the hops explains chart and map. At CR = 1 all hops off the wall that the car is pulled
-# to should last equally long. Each lasts more frames than the one before, by a sum of two numbers:
+# The law of the hops explains chart and stability map. At CR = 1 all hops off the wall that the car
+# is pulled to should last equally long. Each lasts row + column frames longer than the one before:
 #                      none 0    surface +1    rebound +2
 #     forward  +2        +2          +3            +4
 #     exact     0         0          +1            +2
 #     backward -2        -2          -1             0
-# Why: a car that leaves the wall at w is back after 2 w/(g dt) frames. There E = w^2/2, so g w dt/2
-# more of E is one frame more. Euler's flight changes E by g^2 dt^2/2 in each frame, by g w dt in
-# all: two frames. Then the car is found 0 to w dt beyond the wall, on average w dt/2. surface lifts
-# it by that at an unchanged speed: one frame (in every hop, as frames are whole). rebound lifts it
-# by twice that: two. So with the sum k, E grows by k g^2 dt/4 a second: above 0 the car gains
-# energy, below 0 it loses it. exact + none keeps E in every hop, backward + rebound on average
-# only: it wanders. With none, the car may be stuck first.
+# Why: a car that leaves the wall at w is back after 2 w/(g dt) frames. One frame more takes
+# w + g dt/2, so g w dt/2 more of E = w^2/2. Euler's flight changes E by +-g^2 dt^2/2 a frame, by
+# +-g w dt in all: two frames. Then the car is found 0 to w dt beyond the wall, on average w dt/2.
+# surface lifts it by that, against the pull, at an unchanged speed: one frame (in every hop; the
+# others on average). rebound lifts it by twice that: two. So with the sum k, E grows by k g^2 dt/4
+# a second: above 0 the car gains energy, below 0 it loses it. exact + none keeps E in every hop,
+# backward + rebound on average only: it wanders. With none, the car may be stuck first.
 
 def none(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Reverse v, but leave the car beyond the wall: a trap.
@@ -206,10 +206,10 @@ def replay(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> State:
     Right for a frame of any length, with several bounces (example 15) or infinitely many (12); the
     tests compare it with 60-digit decimals. Think of a ball in a room: the pull is gravity. The
     wall that it pulls to is the floor (without a pull, the left one), the other is the ceiling. h
-    is the height. The loop ends: from floor to ceiling takes time, and a ball too slow for it hops.
+    is the height. The loop ends: trips to the ceiling take time, and a ball too slow for it hops.
 
-    A ball that turns less than GRAZE_M behind the ceiling misses it: there, an error of 1e-16 in h
-    is one of 1e-8 in v. Each miss shifts the car by up to 4 sqrt(room GRAZE_M), by default 4e-5 m.
+    A ball that would pass the ceiling by under GRAZE_M misses it: there, an error of 1e-16 in h is
+    one of 1e-8 in v. Each miss shifts the car by up to 4 sqrt(room GRAZE_M), by default 4e-5 m.
     """
     up, floor_m = (-1, scene.right_edge_m) if scene.a_mps2 > 0 else (1, scene.left_edge_m)
     room_m, g_mps2, CR = scene.right_edge_m - scene.left_edge_m, abs(scene.a_mps2), scene.CR
@@ -221,11 +221,11 @@ def replay(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> State:
             flight_s, w_mps = arrival(room_m - h_m, v_mps, -g_mps2)
             bounced = room_m, -CR * w_mps
         elif v_mps < 0 or h_m > 0:
-            # Falling, or above the floor and about to fall.
+            # Falling, now or soon: the floor is next.
             flight_s, w_mps = arrival(h_m, -v_mps, g_mps2)
             bounced = 0.0, CR * w_mps
         else:
-            # On the floor, and too slow for the ceiling.
+            # On the floor, and too slow for the ceiling: hops until the frame's end.
             t_s, v_mps = hops(v_mps, g_mps2, CR, t_s)
             break
         if flight_s > t_s:
@@ -321,8 +321,8 @@ def truth_of(scene: Scene) -> Scene:
 def is_at_rest(scene: Scene, v_mps: float, recent_m: deque[float]) -> bool:
     """Whether the car rests against the wall that it is pulled to or, without a pull, against any.
 
-    For 1/3 s, longer than a turn, its mean position is within 1 mm of it: by Euler's methods the v
-    of a car that leans on a wall need not be 0. Without a pull it must be, or the car leaves again.
+    Its mean position in 1/3 s, longer than a turn, is within 1 mm of the wall. (By Euler's methods
+    the v of a car that leans on it need not be 0.) Without a pull v must be 0, or it leaves again.
     """
     mean_m = sum(recent_m) / len(recent_m)
     is_left = scene.a_mps2 <= 0 and abs(mean_m - scene.left_edge_m) <= 0.001
@@ -390,8 +390,8 @@ def say(text: str, indent: int = 0) -> None:
 
 SPAN_S, CUTS = 20, 9  # of chart and map: simulated seconds, runs of each method
 MEASURED = ("The scene's own motion, correction and rate do not matter. Each method runs nine "
-            "times for 20 simulated seconds, each run starting a ninth of a frame later. The worst "
-            "of these nine cuts counts.")
+            "times for 20 simulated seconds, with the frames cut a ninth of a frame later each "
+            "time. The worst of these nine cuts counts.")
 CHART_FPS = (10, 30, 60, 120, 240, 480, 960, 1920, 3840)  # multiples of 10, for simulate
 SERIES = {"a": ("backward", "surface"), "b": ("backward", "rebound"), "c": ("exact", "rebound"),
           "d": ("exact", "rewind"), "e": ("exact", "replay")}
@@ -406,8 +406,8 @@ def simulate(scene: Scene, fps: int, cut: int) -> Iterator[tuple[State, State]]:
     """Run for SPAN_S; yield the car's state and the true one, every 0.1 s or every longer frame.
 
     Where in a frame the car meets a wall is luck. So cut k, 0 to 8, begins (k + 1/3)/9 of a frame
-    after the start, at the true state of that moment (and none at the start itself, as hops from
-    rest on a frame's edge may last whole frames). One step is the truth: so no error adds up.
+    after the start, at the true state of that moment. (At the start itself, rest on a frame's edge
+    would be rare luck: hops of whole frames.) The truth takes one step: no error adds up.
     """
     truth = truth_of(scene)
     shift_s = (cut + 1 / 3) / CUTS / fps
@@ -573,9 +573,9 @@ def stability(scene: Scene, heading: str) -> None:
     print(f"\n{rates}\n")
     for letter, meaning in VERDICTS.items():
         print(f"{inked(letter)}  {meaning}")
-    say("Each letter is the worst of nine cuts, small where only some cuts are so bad. Samples are "
-        "taken every 0.1 s, or each longer frame. The 1 % is of v^2/2 at the start plus |a| times "
-        "the track's length. At CR < 1, G mostly means that the car does not come to rest.")
+    say("Each letter but W is the worst of nine cuts, small where only some are so bad. Samples "
+        "are taken every 0.1 s, or each longer frame. The 1 % is of v^2/2 at the start plus |a| "
+        "times the track's length. At CR < 1, G mostly means that the car does not come to rest.")
 
 
 # ==== 9. Checking a scene =======================================================================
