@@ -634,7 +634,7 @@ def in_words(scene: Scene) -> str:
         speed = f"moving {ways[scene.v_mps > 0]} at {abs(scene.v_mps):g} m/s"
     if scene.a_mps2:
         pull = f"pulled {ways[scene.a_mps2 > 0]} at {abs(scene.a_mps2):g} m/s^2"
-    return (f"The car starts at x = {scene.x_m:g} m, {speed}, {pull}; walls at "
+    return (f"The car starts at {scene.x_m:g} m, {speed}, {pull}; walls at "
             f"{scene.left_edge_m:g} and {scene.right_edge_m:g} m; CR={scene.CR:g}.")
 
 def method_in_words(scene: Scene) -> str:
@@ -687,12 +687,13 @@ def film(scene: Scene, number: int, title: str, options: dict[str, str]) -> int:
             keys.leave_time(example.pause_s)
         print(flush=True)
         run(view, details, min(max_frames, sys.maxsize), keys)
-    if keys and keys.frame and not keys.status and number in EXAMPLES:
-        if scene != Scene(**example.settings):
-            say("(What follows is about the example as it is, without your changes.)")
-        say(example.seen)
-        if keys.where():
-            print(f"Next: python airtrack.py {number + 1 if number + 1 in EXAMPLES else 'chart'}")
+        if keys and keys.frame and not keys.status and number in EXAMPLES:
+            if scene != Scene(**example.settings):
+                say("(What follows is about the example as it is, without your changes.)")
+            say(example.seen)
+            following = number + 1 if number + 1 in EXAMPLES else "chart"
+            if keys.where():
+                print(f"Next: python airtrack.py {following}", flush=True)
     return keys.status if keys else 0
 
 def manual() -> int:

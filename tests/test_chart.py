@@ -43,7 +43,7 @@ def test_the_heading_says_what_is_measured_and_is_true(command: str, capsys: Cap
         return capsys.readouterr().out.split("\n\n", 1)
 
     heading, rest = told("4", "CR=0.5")
-    for part in ("Example 4's scene, CR=0.5.", "x = 0.2 m", "20 simulated seconds", "nine cuts",
+    for part in ("Example 4's scene, CR=0.5.", "at 0.2 m", "20 simulated seconds", "nine cuts",
                  "starts beyond a wall; here all methods start on it",
                  "motion, correction and rate do not matter"):
         assert part in " ".join(heading.split())
@@ -210,7 +210,7 @@ def test_the_saved_picture_has_the_figures_and_explains_itself(
     assert (axes.get_xscale(), axes.get_yscale()) == ("log", "log")
     assert axes.yaxis_inverted()
     said = [text.get_text() for text in figure.findobj(lambda part: hasattr(part, "get_text"))]
-    for part in ("Speed against accuracy\nExample 14's scene. The car starts at x = 1.65 m, "
+    for part in ("Speed against accuracy\nExample 14's scene. The car starts at 1.65 m, "
                  "moving to the right at 40 m/s, not pulled; walls at 0.25 and 2.2 m; CR=1.",
                  "largest error", "better to the left", "processor time", "better upwards",
                  "10 FPS", "30 FPS",

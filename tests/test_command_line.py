@@ -128,22 +128,22 @@ def test_settings_come_on_top_of_the_example(capsys: Capture) -> None:
 
 @pytest.mark.parametrize(("words", "told"), [
     ("", "Example 0: The one-pager: the whole engine in its simplest form. The car starts at "
-     "x = 11 m, moving to the right at 17 m/s, pulled to the left at 2 m/s^2; walls at 0.5 and "
+     "11 m, moving to the right at 17 m/s, pulled to the left at 2 m/s^2; walls at 0.5 and "
      "17.5 m; CR=0.8. Motion backward, correction surface, 66.6667 frames a second, "
      "auto_off=False, m_to_px=7.0, width_px=126, show_collision_mark=False. An air track: "),
     ("9 CR=0.5", "Example 9: Elastic, large and irregular steps, CR=0.5. The car starts at "
-     "x = 2 m, at rest, pulled to the left at 2 m/s^2; walls at 0.25 and 2.2 m; CR=0.5. Motion "
+     "2 m, at rest, pulled to the left at 2 m/s^2; walls at 0.25 and 2.2 m; CR=0.5. Motion "
      "backward, correction rebound, 10 frames a second, use_observed_dt=True, jitter=0.25, "
      "show_start_mark=True. Example 8 "),
-    ("99", "Your own scene. The car starts at x = 1.1 m, at rest, not pulled; walls at 0.25 and "
+    ("99", "Your own scene. The car starts at 1.1 m, at rest, not pulled; walls at 0.25 and "
      "2.2 m; CR=0.8. Motion backward, correction rebound, 30 frames a second. Between the walls "),
     ("-3 v_mps=-3 a_mps2=1.5 motion=exact", "Your own scene, v_mps=-3.0, a_mps2=1.5, motion=exact. "
-     "The car starts at x = 1.1 m, moving to the left at 3 m/s, pulled to the right at 1.5 m/s^2; "
+     "The car starts at 1.1 m, moving to the left at 3 m/s, pulled to the right at 1.5 m/s^2; "
      "walls at 0.25 and 2.2 m; CR=0.8. Motion exact, correction rebound, 30 frames a second. "),
     # Numbers are read as Python reads them, True and False in any case.
     ("1_0 x_m=1e0 width_px=0100 show_start_mark=false auto_off=FALSE", "Example 10: The exact "
      "solution, x_m=1.0, width_px=100, show_start_mark=False, auto_off=False. The car starts at "
-     "x = 1 m, at rest, ")])
+     "1 m, at rest, ")])
 def test_the_header_says_in_words_all_that_a_run_starts_from(
         words: str, told: str, capsys: Capture) -> None:
     assert film(capsys, *words.split(), "--frames", "1").intro.startswith(told)
