@@ -200,7 +200,7 @@ OWN_SCENE = Example("Your own scene", {},
 
 # ==== The terminal's keys =======================================================================
 
-ESC = "\x1b"  # a key of the window only: a terminal's arrows begin with it too
+ESC = "\x1b"  # a key of the window only: in a terminal arrows begin with it, and hold letters
 
 if sys.platform == "win32":
     class Terminal:
@@ -258,10 +258,7 @@ else:
                 self.found = None
 
         def read(self) -> str:
-            """The keys pressed since the last call, up to an Esc, as characters.
-
-            An arrow, a mouse report or a late reply begins with Esc, and may hold any letter.
-            """
+            """The keys since the last call, up to an Esc, with which arrows and reports begin."""
             self.take()
             with contextlib.suppress(OSError):  # not open for reading, or gone
                 if self.is_raw and select.select([0], [], [], 0)[0]:
@@ -366,6 +363,11 @@ class Keys:
         self.pause_line = ""  # that the run is paused, while it stands on the screen
         self.terminal, self.window = Terminal(), Window()
 
+    @property
+    def is_paused(self) -> bool:
+        """Whether the film shows no more frames than the steps that were asked for."""
+        return self.to_show < math.inf
+
     def on_signal(self, number: int, _: object) -> None:
         """Leave a signal to the next look, so that nothing raises in mid-action."""
         name = signal.Signals(number).name
@@ -396,15 +398,15 @@ class Keys:
             self.suspend()
         for key in [*self.terminal.read(), *self.window.read()]:
             self.press(key)
-        self.window.show(self.to_show < math.inf)
+        self.window.show(self.is_paused)
 
     def press(self, key: str) -> None:
         """Act on a key."""
         key = key.lower()
         if key in PAUSE_KEYS:
-            self.to_show = 0 if self.to_show == math.inf else math.inf
+            self.to_show = math.inf if self.is_paused else 0
         elif key == "s":
-            self.to_show = 1 if self.to_show == math.inf else self.to_show + 1
+            self.to_show = self.to_show + 1 if self.is_paused else 1
         elif key in QUIT_KEYS:
             self.quit(QUIT_KEYS[key])
         elif key in BEGIN_KEYS and not self.begun_by:
@@ -444,30 +446,28 @@ class Keys:
         begun_by, was_paused = self.begun_by, False
         while True:
             self.look()
-            was_paused = was_paused or self.to_show < math.inf
-            is_due_now = 0 < self.to_show < math.inf or self.begun_by != begun_by
+            self.tell_pause()
+            was_paused = was_paused or self.is_paused
+            is_step = self.is_paused and self.to_show > 0
+            is_due_now = is_step or self.begun_by != begun_by
             left_s = 0.0 if is_due_now else moment_s - time.perf_counter()
             if self.why_quit or (left_s <= 0 < self.to_show):
-                break
-            if not self.to_show and not self.pause_line:
-                self.say_paused(f"paused after frame {self.frame}, t = {self.t_s:.2f} s: "
-                                "p resumes, s steps, x quits")
-            elif self.to_show and self.pause_line:
-                self.say_paused("")
+                return was_paused
             time.sleep(min(SLICE_S, left_s) if self.to_show else SLICE_S)
-        self.say_paused("")
-        return was_paused
 
-    def say_paused(self, line: str) -> None:
-        """Say that the run is paused; on a terminal only until it resumes: the film stays whole."""
-        is_terminal = sys.stdout.isatty()
-        if is_terminal and self.pause_line:
-            print("\r" + " " * len(self.pause_line) + "\r", end="", flush=True)
-        if is_terminal:  # what wraps could not be taken back
-            line = line[:shutil.get_terminal_size().columns - 1]
-        if line:
-            print(line, end="" if is_terminal else "\n", flush=True)
-        self.pause_line = line
+    def tell_pause(self) -> None:
+        """Say that the film is held; on a terminal only as long as it is: the film stays whole."""
+        is_terminal, is_held = sys.stdout.isatty(), not self.to_show and not self.why_quit
+        if is_held and not self.pause_line:
+            self.pause_line = (f"paused after frame {self.frame}, t = {self.t_s:.2f} s: p resumes, "
+                               "s steps, x quits")
+            if is_terminal:  # what wraps could not be taken back
+                self.pause_line = self.pause_line[:shutil.get_terminal_size().columns - 1]
+            print(self.pause_line, end="" if is_terminal else "\n", flush=True)
+        elif self.pause_line and not is_held:
+            if is_terminal:
+                print("\r" + " " * len(self.pause_line) + "\r", end="", flush=True)
+            self.pause_line = ""
 
 def redirect(stack: contextlib.ExitStack, handler: Any, *names: str) -> None:
     """Give these signals to the handler until the stack closes, but leave ignored ones alone."""

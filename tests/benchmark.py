@@ -26,6 +26,7 @@ from examples import EXAMPLES  # noqa: E402
 AIRTRACK = [sys.executable, str(HERE / "airtrack.py")]
 FRAMES = 100_000
 
+
 def frame_s(command: Callable[[int], list[str]]) -> float:
     """Processor time of a frame, whose output goes into a file."""
     def spent_s(frames: int) -> float:

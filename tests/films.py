@@ -3,12 +3,13 @@
 import os
 import re
 import sys
+from itertools import pairwise
 from pathlib import Path
 from typing import NamedTuple
 
 import pytest
 
-from airtrack import main
+from airtrack import Scene, main, step
 
 HERE = Path(__file__).resolve().parent.parent
 COMMAND = [sys.executable, str(HERE / "airtrack.py")]
@@ -49,3 +50,12 @@ def environment(**changes: str | None) -> dict[str, str]:
     """A clean environment with the changes (None: unset)."""
     wanted: dict[str, str | None] = {**CLEAN, **changes}
     return {name: value for name, value in wanted.items() if value is not None}
+
+
+def lines_between_bounces(scene: Scene, lines: int) -> list[int]:
+    """How many lines of the film, from each collision to the next."""
+    x_m, v_mps, found = scene.x_m, scene.v_mps, []
+    for line in range(lines):
+        x_m, v_mps, mark_m = step(scene, x_m, v_mps, 1 / scene.fps_target)
+        found += [line] if mark_m is not None else []
+    return [b - a for a, b in pairwise(found)]

@@ -11,7 +11,7 @@ import pytest
 
 from airtrack import Scene, planned, render_track, step, truth_of
 from examples import EXAMPLES
-from films import details, film
+from films import details, film, lines_between_bounces
 
 Capture = pytest.CaptureFixture[str]
 
@@ -303,10 +303,10 @@ def test_18_misses_a_bounce_in_frame_3(shift: float) -> None:
 def test_19_s_hops_are_counted_for_all_nine_methods(
         motion: str, correction: str, lines: list[int], of_v: float, of_x: float) -> None:
     says(19, "15, 14, 13 ...", "2 and 1", "-2", "+1", "forward +2", "rebound +2")
-    x_m = 0.84 * (1 + of_x)
-    found = beside_the_truth(19, 400, of_v, motion=motion, correction=correction, x_m=x_m)
-    bounces = [n for n, (_, _, mark_m) in enumerate(found) if mark_m is not None]
-    assert [b - a for a, b in pairwise(bounces)][:len(lines)] == lines
+    shifted = {"x_m": 0.84 * (1 + of_x), "v_mps": 0.098 * (1 + of_v)}
+    method = {"motion": motion, "correction": correction}
+    scene = Scene(**EXAMPLES[19].settings | shifted | method)
+    assert lines_between_bounces(scene, 400)[:len(lines)] == lines
 
 
 def test_14_is_thrown_out_to_the_left_and_to_the_right_by_turns(capsys: Capture) -> None:

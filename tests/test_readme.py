@@ -8,16 +8,15 @@ import shutil
 import subprocess
 import sys
 from contextlib import redirect_stdout
-from itertools import pairwise
 from pathlib import Path
 
 import pytest
 
 import airtrack
-from airtrack import Scene, step
+from airtrack import Scene
 from examples import EXAMPLES
 from figures import errors_m, printed
-from films import HERE, environment, film
+from films import HERE, environment, film, lines_between_bounces
 
 Capture = pytest.CaptureFixture[str]
 README = (HERE / "README.md").read_text(encoding="utf-8")
@@ -78,16 +77,6 @@ def test_the_examples_are_those_of_the_program() -> None:
     assert rows == [(str(number), example.title) for number, example in EXAMPLES.items()]
 
 
-def lines_between_bounces(number: int, motion: str, correction: str) -> list[int]:
-    """How many lines of the film, from each bounce to the next."""
-    scene = Scene(**EXAMPLES[number].settings | {"motion": motion, "correction": correction})
-    x_m, v_mps, bounces = scene.x_m, scene.v_mps, []
-    for line in range(200):
-        x_m, v_mps, mark_m = step(scene, x_m, v_mps, 1 / scene.fps_target)
-        bounces += [line] if mark_m is not None else []
-    return [b - a for a, b in pairwise(bounces)]
-
-
 def test_the_hops_are_counted_in_the_table_and_in_the_exercise() -> None:
     table = re.findall(r"^\| (\w+): \S+ \| (\d.*) \| (\d.*) \| (\d.*) \|$", README, re.MULTILINE)
     assert [motion for motion, *_ in table] == ["forward", "exact", "backward"]
@@ -101,7 +90,8 @@ def test_the_hops_are_counted_in_the_table_and_in_the_exercise() -> None:
     for number, motion, correction, cell in told:
         lines = [int(text) for text in re.findall("[0-9]+", cell.partition(" \u2026")[0])]
         assert len(lines) >= 3
-        assert lines_between_bounces(number, motion, correction)[:len(lines)] == lines
+        scene = Scene(**EXAMPLES[number].settings | {"motion": motion, "correction": correction})
+        assert lines_between_bounces(scene, 200)[:len(lines)] == lines
 
 
 def test_the_rates_and_errors_of_which_method_when_are_those_of_the_chart() -> None:

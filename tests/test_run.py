@@ -113,8 +113,8 @@ def test_after_a_stall_longer_than_150_ms_and_one_and_a_half_frames_the_car_does
 
 def test_where_every_frame_is_a_stall_the_car_moves_all_the_same(clock: Clock, play: Play) -> None:
     clock.when_drawn = lambda frame: 0.2  # over a slow line
-    xs = positions_m(play("99 d v_mps=1 right_edge_m=9 fps_target=10 use_observed_dt=True "
-                          "fps_target=30 --frames 50"))
+    xs = positions_m(play("99 d v_mps=1 right_edge_m=9 fps_target=30 "
+                          "use_observed_dt=True --frames 50"))
     assert xs[-1] == pytest.approx(1.1 + 50 / 30, abs=0.01)
 
 

@@ -181,8 +181,8 @@ def test_window_and_terminal_serve_together_and_a_signal_ends_both(screen: Scree
         terminal.until("paused")
         window = screen.window_of(terminal.program)
         assert screen.xdotool("getwindowname", window) == PAUSED
-        screen.xdotool("windowfocus", "--sync", window, "key", "Return")
-        terminal.until("FPS", "FPS")
+        screen.xdotool("windowfocus", "--sync", window, "key", "ctrl+c")
+        terminal.until("   *\r\n  * *\r\n *   *\r\n  * *\r\n   *\r\n", "FPS", "FPS")
         terminal.press("SIGTERM")
         terminal.ends(143)
 
