@@ -13,7 +13,7 @@
     --fast       no pacing, no pauses, no keys: for a pipe or a file
     --frames N   stop after N frames; without it, after 50000
 """
-# Sections 1 to 5 are the lesson: read them from the top. examples.py has the examples and the keys.
+# Sections 1 to 6 are the lesson: read them from the top. examples.py has the examples and the keys.
 
 from __future__ import annotations
 
@@ -36,57 +36,18 @@ from typing import Any
 
 from examples import EXAMPLES, OWN_SCENE, Keys, taken_keys
 
-# ==== 1. The scene: all that a run starts from ==================================================
-
-def setting(default: Any, meaning: str, allowed: tuple[Any, ...] = (False, True),
-            unit: str = "") -> Any:
-    """A row of the table below. allowed: a number's lowest and highest value, or every choice."""
-    return field(default=default, metadata={"meaning": meaning, "allowed": allowed, "unit": unit})
-
-@dataclass(frozen=True)
-class Scene:
-    """The settings; names carry their units. Raises BadInput (a ValueError) for a wrong value.
-
-    A scene never changes. The car's state, x and v, does: step returns the new one. The default
-    methods would do for any force; exact, rewind and replay are right for a constant a only.
-    """
-
-    x_m: float = setting(1.1, "starting position", (-1000, 1000), "m")
-    v_mps: float = setting(0.0, "starting velocity, positive to the right", (-1000, 1000), "m/s")
-    a_mps2: float = setting(0.0, "constant acceleration", (-1000, 1000), "m/s^2")
-    left_edge_m: float = setting(0.25, "the left wall", (-1000, 1000), "m")
-    right_edge_m: float = setting(2.2, "the right wall", (-1000, 1000), "m")
-    CR: float = setting(0.8, "coefficient of restitution: speed after / before a bounce", (0, 1))
-    motion: str = setting("backward", "how the car is moved", ("forward", "backward", "exact"))
-    correction: str = setting("rebound", "stickiness correction: how a collision is settled",
-                              ("none", "surface", "rebound", "rewind", "replay"))
-    fps_target: float = setting(30.0, "frames a second; time step 1/fps_target", (0.1, 1000), "1/s")
-    use_observed_dt: bool = setting(False, "the step is how long the frame before took")
-    jitter: float = setting(0.0, "frames vary in length by up to this part of it", (0, 0.9))
-    auto_off: bool = setting(True, "stop when the car rests against a wall")
-    m_to_px: float = setting(55.0, "zoom; a pixel is a character", (0.001, 1000), "px/m")
-    width_px: int = setting(135, "width of the picture, which begins at x = 0", (10, 1000), "px")
-    show_start_mark: bool = setting(False, "draw a . where the car started")
-    show_collision_mark: bool = setting(True, "in a collision, draw a 0 where the move ended")
-    show_exact_mark: bool = setting(False, "draw an o where the car truly is")
-
-    def __post_init__(self) -> None:
-        check(self)
-
-    def to_track(self, x_m: float) -> float:
-        """x_m itself, or the wall that it is beyond."""
-        if x_m < self.left_edge_m:
-            return self.left_edge_m
-        return self.right_edge_m if x_m > self.right_edge_m else x_m
-
-
-# ==== 2. Moving: where is the car dt_s later, if there are no walls? ============================
+# ==== 1. Moving: where is the car dt_s later, if there are no walls? ============================
+#
+#     x_m, v_mps   the car's position (m) and velocity (m/s), positive to the right
+#     a_mps2       its constant acceleration (m/s^2): the pull
+#     dt_s         how long a frame lasts (s), and so the time step
+#     wall_m       the position of a wall (m)
+#     CR           the coefficient of restitution: speed after a bounce / speed before
 #
 # v changes during the frame. Euler's methods hold it constant: forward takes the frame's first v,
 # backward (for a constant a the same as semi-implicit Euler) its last. Both are of first order:
-# half the dt, half the error after a given time. exact has no error at any dt. (For another force,
-# step would work out a from x and v before each move.) E = v^2/2 - a x is the car's energy per
-# kilogram. In free flight it should not change.
+# half the dt, half the error after a given time. exact has no error at any dt, for a constant a.
+# E = v^2/2 - a x is the car's energy per kilogram. In free flight it should not change.
 
 State = tuple[float, float]  # x_m, v_mps
 
@@ -103,11 +64,11 @@ def exact(x_m: float, v_mps: float, a_mps2: float, dt_s: float) -> State:
     """Kinematics: x + v dt + a dt^2/2, and v + a dt. E does not change."""
     return x_m + v_mps * dt_s + a_mps2 * dt_s * dt_s / 2, v_mps + a_mps2 * dt_s
 
-# To add a motion, write it above, and name it here and in the Scene's table.
+# To add a motion, write it above and name it here.
 MOTIONS = {"forward": forward, "backward": backward, "exact": exact}
 
 
-# ==== 3. Colliding: the stickiness corrections ==================================================
+# ==== 2. Colliding: the stickiness corrections ==================================================
 #
 # The move ended beyond a wall. Left there, the car may stick. A correction takes the x and v that
 # the move ended with, the wall, a and CR, and returns better ones. After the bounce, a part of the
@@ -176,25 +137,74 @@ def rewind(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) ->
     is_beyond_again = (x_m - wall_m) * side > 0  # it would bounce again: leave it on the wall
     return (wall_m if is_beyond_again else x_m), v_mps
 
-CORRECTIONS = {"none": none, "surface": surface, "rebound": rebound, "rewind": rewind}
-EXACT_ONLY = ("rewind", "replay")  # replay, below, does not correct the move: it replaces it
+# replay has no function here: it does not correct the move but replaces it, in step.
+CORRECTIONS = {"none": none, "surface": surface, "rebound": rebound, "rewind": rewind,
+               "replay": None}
+EXACT_ONLY = ("rewind", "replay")  # they need the exact motion
+
+
+# ==== 3. The scene: all that a run starts from ==================================================
+
+def setting(default: Any, meaning: str, allowed: tuple[Any, ...] = (False, True),
+            unit: str = "") -> Any:
+    """A row of the table below. allowed: a number's lowest and highest value, or every choice."""
+    return field(default=default, metadata={"meaning": meaning, "allowed": allowed, "unit": unit})
+
+@dataclass(frozen=True)
+class Scene:
+    """The settings; names carry their units. Raises BadInput (a ValueError) for a wrong value.
+
+    A scene never changes. The car's state, x and v, does: step returns the new one. The default
+    methods would do for any force; exact, rewind and replay are right for a constant a only.
+    """
+
+    x_m: float = setting(1.1, "starting position", (-1000, 1000), "m")
+    v_mps: float = setting(0.0, "starting velocity, positive to the right", (-1000, 1000), "m/s")
+    a_mps2: float = setting(0.0, "constant acceleration", (-1000, 1000), "m/s^2")
+    left_edge_m: float = setting(0.25, "the left wall", (-1000, 1000), "m")
+    right_edge_m: float = setting(2.2, "the right wall", (-1000, 1000), "m")
+    CR: float = setting(0.8, "coefficient of restitution: speed after / before a bounce", (0, 1))
+    motion: str = setting("backward", "how the car is moved", tuple(MOTIONS))
+    correction: str = setting("rebound", "stickiness correction: how a collision is settled",
+                              tuple(CORRECTIONS))
+    fps_target: float = setting(30.0, "frames a second; time step 1/fps_target", (0.1, 1000), "1/s")
+    use_observed_dt: bool = setting(False, "the step is how long the frame before took")
+    jitter: float = setting(0.0, "frames vary in length by up to this part of it", (0, 0.9))
+    auto_off: bool = setting(True, "stop when the car rests against a wall")
+    m_to_px: float = setting(55.0, "zoom; a pixel is a character", (0.001, 1000), "px/m")
+    width_px: int = setting(135, "width of the picture, which begins at x = 0", (10, 1000), "px")
+    show_start_mark: bool = setting(False, "draw a . where the car started")
+    show_collision_mark: bool = setting(True, "in a collision, draw a 0 where the move ended")
+    show_exact_mark: bool = setting(False, "draw an o where the car truly is")
+
+    def __post_init__(self) -> None:
+        check(self)
+
+    def to_track(self, x_m: float) -> float:
+        """x_m itself, or the wall that it is beyond."""
+        if x_m < self.left_edge_m:
+            return self.left_edge_m
+        return self.right_edge_m if x_m > self.right_edge_m else x_m
+
+
+# ==== 4. A frame ================================================================================
 
 def step(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> tuple[float, float, float | None]:
     """One frame of dt_s: move the car, settle any collision. Returns x_m, v_mps, mark_m.
 
     mark_m is where the move alone ended, before the correction; None without a collision.
     """
-    free_m, free_mps = MOTIONS[scene.motion](x_m, v_mps, scene.a_mps2, dt_s)
+    motion, correction = MOTIONS[scene.motion], CORRECTIONS[scene.correction]
+    free_m, free_mps = motion(x_m, v_mps, scene.a_mps2, dt_s)
     on_track_m = scene.to_track(free_m)  # the wall, if the move ended beyond one
     is_beyond = on_track_m != free_m
-    if scene.correction == "replay":
+    if correction is None:
         # A move that ends on the track can have been beyond a wall only if v has changed its sign.
         if is_beyond or v_mps * free_mps < 0:
             x_m, v_mps = replay(scene, x_m, v_mps, dt_s)
             is_bounce = is_beyond or v_mps != free_mps
             return x_m, v_mps, free_m if is_bounce else None
     elif is_beyond:
-        correction = CORRECTIONS[scene.correction]
         return *correction(free_m, free_mps, on_track_m, scene.a_mps2, scene.CR), free_m
     return free_m, free_mps, None
 
@@ -255,7 +265,7 @@ def hops(v_mps: float, g_mps2: float, CR: float, t_s: float) -> tuple[float, flo
     return t_s - n_hops_s, v_mps * CR**n
 
 
-# ==== 4. Drawing: one frame, one line ===========================================================
+# ==== 5. Drawing: one frame, one line ===========================================================
 
 def paint(line: bytearray, mark: str, x_px: float) -> None:
     """Paint the mark over what is in its column, if the line has that column."""
@@ -286,7 +296,7 @@ def details_text(x_m: float, v_mps: float, fps: float, true_m: float | None) -> 
     return text if true_m is None else f"{text}, err = {x_m - true_m:9.2e}"
 
 
-# ==== 5. The run: the main loop =================================================================
+# ==== 6. The run: the main loop =================================================================
 
 def planned(scene: Scene) -> Iterator[tuple[float, float]]:
     """Yield how long each frame should last, and the target rate in FPS; the same in every run."""
@@ -360,7 +370,7 @@ def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None
     print(f"Stopped after {frame} frame{'s' * (frame != 1)}, t = {t_s:.2f} s: {why}.", flush=True)
 
 
-# ==== 6. What film, chart and map share in printing =============================================
+# ==== 7. What film, chart and map share in printing =============================================
 
 INKS = {  # marks of film, chart and map: the terminal's number for their colour
     "0cXx": 31,  # red
@@ -386,7 +396,7 @@ def say(text: str, indent: int = 0) -> None:
     print(textwrap.fill(text, width, subsequent_indent=" " * indent), flush=True)
 
 
-# ==== 7. Speed against accuracy: the chart ======================================================
+# ==== 8. Speed against accuracy: the chart ======================================================
 
 SPAN_S, CUTS = 20, 9  # of chart and map: simulated seconds, runs of each method
 MEASURED = ("The scene's own motion, correction and rate do not matter. Each method runs nine "
@@ -395,10 +405,6 @@ MEASURED = ("The scene's own motion, correction and rate do not matter. Each met
 CHART_FPS = (10, 30, 60, 120, 240, 480, 960, 1920, 3840)  # multiples of 10, for simulate
 SERIES = {"a": ("backward", "surface"), "b": ("backward", "rebound"), "c": ("exact", "rebound"),
           "d": ("exact", "rewind"), "e": ("exact", "replay")}
-TABLE_HEAD = """
-        a: backward    b: backward       c: exact       d: exact       e: exact
-          + surface      + rebound      + rebound       + rewind       + replay
- FPS  error m    us  error m    us  error m    us  error m    us  error m    us"""
 Points = dict[str, list[tuple[float, float]]]  # letter: (error_m, cost_us) at each rate
 step_once = cache(step)  # all methods need the truth at the same moments
 
@@ -440,7 +446,10 @@ def first_within(series: list[tuple[float, float]], pixel_m: float) -> str:
 def table(scene: Scene) -> Points:
     """Measure every series at every rate, and print it row by row."""
     points: Points = {letter: [] for letter in SERIES}
-    print(TABLE_HEAD)
+    heads = [(f"{letter}: {motion}", f"+ {correction}", "error m    us")
+             for letter, (motion, correction) in SERIES.items()]
+    for label, *words in zip(("\n    ", "    ", " FPS"), *heads, strict=True):
+        print(label, *(f"{word:>14}" for word in words))
     for fps in CHART_FPS:
         row = f"{fps:4}"
         for letter, (motion, correction) in SERIES.items():
@@ -519,7 +528,7 @@ def chart(scene: Scene, heading: str, file: str | None) -> None:
         save(figure, file, points, 1 / scene.m_to_px, heading)
 
 
-# ==== 8. Where methods fail: the stability map ==================================================
+# ==== 9. Where methods fail: the stability map ==================================================
 
 MAP_FPS = (1, 2, 5, 10, 30, 60, 120, 240, 1000)  # at most 10, or multiples of it
 VERDICTS = {  # from the worst to the best
@@ -563,7 +572,7 @@ def stability(scene: Scene, heading: str) -> None:
     print(f"\n{rates}")
     for motion in MOTIONS:
         print()
-        for correction in (*CORRECTIONS, "replay"):
+        for correction in CORRECTIONS:
             if motion != "exact" and correction in EXACT_ONLY:
                 continue
             method = replace(scene, motion=motion, correction=correction)
@@ -578,7 +587,7 @@ def stability(scene: Scene, heading: str) -> None:
         "times the track's length. At CR < 1, G mostly means that the car does not come to rest.")
 
 
-# ==== 9. Checking a scene =======================================================================
+# ==== 10. Checking a scene ======================================================================
 
 class BadInput(ValueError):
     """One sentence on what a user asked for and cannot have."""
@@ -620,7 +629,7 @@ def check(scene: Scene) -> None:
             raise BadInput(f"x_m must be from {left_m} to {right_m} {with_it}, not {scene.x_m}")
 
 
-# ==== 10. The command line ======================================================================
+# ==== 11. The command line ======================================================================
 
 SETTINGS = {row.name: row for row in fields(Scene)}
 COMMANDS = ("chart", "stability")
