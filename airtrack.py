@@ -18,7 +18,6 @@
 from __future__ import annotations
 
 import difflib
-import errno
 import math
 import os
 import shutil
@@ -798,8 +797,6 @@ def main(argv: list[str] | None = None) -> int:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # more output would fail
         if isinstance(fault, BrokenPipeError):  # the reader has seen enough, as in | head
             return 0
-        if fault.errno == errno.EIO:  # the terminal has hung up
-            return 129  # as after SIGHUP
         why = fault
     print(f"airtrack.py: error: {why}", file=sys.stderr)
     return 2

@@ -202,16 +202,17 @@ OWN_SCENE = Example("Your own scene", {},
 
 ESC = "\x1b"  # a key of the window only: in a terminal arrows begin with it, and hold letters
 
+# Whether a terminal's keys come to this process: with its output in a pipe they are the reader's.
+HAS_KEYBOARD = os.isatty(0) and os.isatty(1)
+
 if sys.platform == "win32":
     class Terminal:
         """The keys of a Windows console, which msvcrt gives one by one and unechoed."""
 
-        is_raw = sys.stdin.isatty() and sys.stdout.isatty()  # whether its keys come to this process
-
         def read(self) -> str:
             """The keys pressed since the last call, as characters."""
             keys = ""
-            while self.is_raw and msvcrt.kbhit():
+            while HAS_KEYBOARD and msvcrt.kbhit():
                 key = msvcrt.getwch()
                 if key in "\x00\xe0":
                     msvcrt.getwch()  # the second half of an arrow or a function key
@@ -226,43 +227,30 @@ if sys.platform == "win32":
 
 else:
     class Terminal:
-        """The keys of a terminal, one by one, unechoed. It is touched from the foreground only."""
+        """The keys of a terminal, one by one and unechoed."""
 
-        is_raw = False  # whether its keys come to this process
-        found: Any = None  # its mode, as it was found
-
-        def is_in_foreground(self) -> bool:
-            """Whether the terminal is ours; with the output in a pipe it is the reader's."""
-            try:
-                return os.isatty(0) and os.isatty(1) and os.tcgetpgrp(0) == os.getpgrp()
-            except OSError:  # not its controlling terminal, or gone
-                return False
+        found: Any = None  # its mode, as it was found first
 
         def take(self) -> None:
             """Get keys one by one, unechoed, and Ctrl-S too; again at each look, as after fg."""
-            self.is_raw = self.is_in_foreground()
-            with contextlib.suppress(termios.error):  # it may have gone just now
-                if self.is_raw:
-                    mode = termios.tcgetattr(0)
-                    self.found = self.found or termios.tcgetattr(0)
-                    mode[0] &= ~termios.IXON
-                    mode[3] &= ~(termios.ICANON | termios.ECHO)
-                    mode[6][termios.VMIN], mode[6][termios.VTIME] = 1, 0
-                    termios.tcsetattr(0, termios.TCSANOW, mode)
+            if HAS_KEYBOARD:
+                mode = termios.tcgetattr(0)
+                self.found = self.found or termios.tcgetattr(0)
+                mode[0] &= ~termios.IXON
+                mode[3] &= ~(termios.ICANON | termios.ECHO)
+                mode[6][termios.VMIN], mode[6][termios.VTIME] = 1, 0
+                termios.tcsetattr(0, termios.TCSANOW, mode)
 
         def give_back(self) -> None:
-            """Leave the terminal as it was found. The next look finds it anew."""
-            if self.found and self.is_in_foreground():
-                with contextlib.suppress(termios.error):
-                    termios.tcsetattr(0, termios.TCSANOW, self.found)
-                self.found = None
+            """Leave the terminal as it was found."""
+            if self.found:
+                termios.tcsetattr(0, termios.TCSANOW, self.found)
 
         def read(self) -> str:
             """The keys since the last call, up to an Esc, with which arrows and reports begin."""
             self.take()
-            with contextlib.suppress(OSError):  # not open for reading, or gone
-                if self.is_raw and select.select([0], [], [], 0)[0]:
-                    return os.read(0, 65536).decode("ascii", "ignore").partition(ESC)[0]
+            if HAS_KEYBOARD and select.select([0], [], [], 0)[0]:
+                return os.read(0, 65536).decode("ascii", "ignore").partition(ESC)[0]
             return ""
 
 
@@ -319,21 +307,18 @@ class Window:
             self.pygame.display.flip()
 
     def read(self) -> list[str]:
-        """The keys pressed since the last call, as a terminal would give them."""
-        keys = []
-        for event in [] if self.why_shut else self.pygame.event.get():
-            if event.type == self.pygame.QUIT:
+        """The keys pressed since the last call, as the characters that they give."""
+        if self.why_shut:
+            return []
+        pg, keys = self.pygame, []
+        another = pg.KMOD_ALT | pg.KMOD_META | pg.KMOD_MODE  # with Alt, Super or AltGr
+        for event in pg.event.get():
+            if event.type == pg.QUIT:
                 keys.append(WINDOW_CLOSED)
-            elif event.type == self.pygame.VIDEOEXPOSE:  # it was covered
-                self.pygame.display.flip()
-            elif event.type == self.pygame.KEYDOWN and event.key < 128:
-                key = chr(event.key)
-                pg = self.pygame
-                if event.mod & (pg.KMOD_ALT | pg.KMOD_META | pg.KMOD_MODE):  # Alt, Super, AltGr
-                    continue
-                if event.mod & pg.KMOD_CTRL:  # a terminal sends the letter's low five bits
-                    key = chr(event.key & 0x1f) if key.isalpha() else ""
-                keys.append(key)
+            elif event.type == pg.VIDEOEXPOSE:  # it was covered
+                pg.display.flip()
+            elif event.type == pg.KEYDOWN and not event.mod & another:
+                keys.append(event.unicode)
         return keys
 
     def close(self) -> None:
@@ -349,17 +334,17 @@ PAUSE_KEYS = ("p", "\x13")  # Ctrl-S
 CTRL_C = "\x03"
 BEGIN_KEYS = ("\r", "\n", CTRL_C)
 SLICE_S = 0.05  # how long a key or a signal waits for an answer, at most
-SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP", "SIGQUIT", "SIGTSTP")  # Windows has only the first two
+SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP", "SIGQUIT")  # Windows has only the first two
 
 class Keys:
-    """The keys of a run, and its signals, which are keys too."""
+    """The keys of a run, and its signals."""
 
     def __init__(self) -> None:
         self.why_quit, self.status = "", 0  # why the run is to end, and its exit status then
         self.frame, self.t_s = 0, 0.0  # how far the film is
         self.to_show = math.inf  # frames before it is held: all, or, while paused, the steps
         self.begun_by = ""  # the key that began the film, or the clock
-        self.is_suspending = False  # Ctrl-Z was pressed
+        self.signals: list[int] = []  # those that came since the last look
         self.pause_line = ""  # that the run is paused, while it stands on the screen
         self.terminal, self.window = Terminal(), Window()
 
@@ -368,20 +353,14 @@ class Keys:
         """Whether the film shows no more frames than the steps that were asked for."""
         return self.to_show < math.inf
 
-    def on_signal(self, number: int, _: object) -> None:
-        """Leave a signal to the next look, so that nothing raises in mid-action."""
-        name = signal.Signals(number).name
-        if name == "SIGINT":
-            self.press(CTRL_C)
-        elif name == "SIGTSTP":
-            self.is_suspending = True
-        else:
-            self.quit(name, 128 + number)
+    def note(self, number: int, _: object) -> None:
+        """Leave a signal to the next look: nothing changes in mid-action."""
+        self.signals.append(number)
 
     def where(self) -> str:
         """Where keys work; nothing where they do not."""
         window = [] if self.window.why_shut else ["in the little window"]
-        return " and ".join(window + ["in this terminal"] * self.terminal.is_raw)
+        return " and ".join(window + ["in this terminal"] * HAS_KEYBOARD)
 
     def help(self, pause_s: float) -> Iterator[str]:
         """What to press, and where, in paragraphs."""
@@ -393,12 +372,20 @@ class Keys:
         yield f"The film begins in {pause_s:g} s; press {hint}."
 
     def look(self) -> None:
-        """Act on the keys pressed since the last look."""
-        if self.is_suspending:
-            self.suspend()
+        """Act on the signals and the keys that came since the last look."""
+        self.heed_signals()
         for key in [*self.terminal.read(), *self.window.read()]:
             self.press(key)
         self.window.show(self.is_paused)
+
+    def heed_signals(self) -> None:
+        """Act on the signals that were noted: Ctrl-C's is a key, the others end the run."""
+        while self.signals:
+            number = self.signals.pop(0)
+            if number == signal.SIGINT:
+                self.press(CTRL_C)
+            else:
+                self.quit(signal.Signals(number).name, 128 + number)
 
     def press(self, key: str) -> None:
         """Act on a key."""
@@ -419,14 +406,6 @@ class Keys:
         if not self.why_quit:
             self.why_quit, self.status = why, status
 
-    def suspend(self) -> None:
-        """Ctrl-Z: lend the terminal until fg."""
-        self.terminal.give_back()
-        signal.signal(signal.SIGTSTP, signal.SIG_DFL)
-        signal.raise_signal(signal.SIGTSTP)  # the process stops here
-        signal.signal(signal.SIGTSTP, self.on_signal)
-        self.is_suspending, self.pause_line = False, ""
-
     def count(self, frame: int, t_s: float) -> None:
         """A frame has been printed: send it out at once, and keep how far the film is."""
         sys.stdout.flush()
@@ -435,8 +414,7 @@ class Keys:
 
     def leave_time(self, pause_s: float) -> None:
         """Leave time to read the header. If Ctrl-C cuts it short, a diamond says so."""
-        if not self.begun_by:
-            self.wait_until(time.perf_counter() + pause_s)
+        self.wait_until(time.perf_counter() + pause_s)
         if self.begun_by == CTRL_C:
             print("   *\n  * *\n *   *\n  * *\n   *")
         self.begun_by = self.begun_by or "the clock"
@@ -489,7 +467,8 @@ def taken_keys() -> Iterator[Keys]:
         redirect(stack, signal.SIG_DFL, "SIGINT")
         keys.window.open()
         stack.callback(keys.window.close)
-        redirect(stack, keys.on_signal, *SIGNALS)
+        redirect(stack, keys.note, *SIGNALS)
+        stack.callback(keys.heed_signals)  # what came while the terminal was given back
         stack.callback(keys.terminal.give_back)
         keys.terminal.take()
         yield keys

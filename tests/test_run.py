@@ -191,7 +191,8 @@ def test_keys_that_quit(key: str, why: str, clock: Clock, monkeypatch: pytest.Mo
 def test_the_first_reason_to_end_wins() -> None:
     keys = examples.Keys()
     keys.press("x")
-    keys.on_signal(signal.SIGTERM, None)
+    keys.note(signal.SIGTERM, None)
+    keys.look()
     assert (keys.why_quit, keys.status) == ("x was pressed", 0)
 
 
@@ -260,14 +261,14 @@ def test_enter_and_ctrl_c_begin_the_film_even_where_p_holds_the_text(
     assert ending(out).endswith("that is the frame limit.")
 
 
-@pytest.mark.parametrize(("is_raw", "why_shut", "where"), [
+@pytest.mark.parametrize(("has_keyboard", "why_shut", "where"), [
     (True, "no", "in this terminal"), (False, "", "in the little window"),
     (True, "", "in the little window and in this terminal"), (False, "no", "")])
 def test_the_keys_are_told_and_the_next_example_is_named_where_there_are_any(
-        is_raw: bool, why_shut: str, where: str, monkeypatch: pytest.MonkeyPatch,
+        has_keyboard: bool, why_shut: str, where: str, monkeypatch: pytest.MonkeyPatch,
         play: Play) -> None:
-    monkeypatch.setattr(examples.Terminal, "take", lambda terminal: setattr(
-        terminal, "is_raw", is_raw))
+    monkeypatch.setattr(examples, "HAS_KEYBOARD", has_keyboard)
+    monkeypatch.setattr(examples.Terminal, "take", lambda _: None)
     monkeypatch.setattr(examples.Window, "open", lambda window: setattr(
         window, "why_shut", why_shut))
     for name in ("show", "read", "close"):

@@ -1,12 +1,9 @@
 """The little window, on an X server of its own (Xvfb), with keys pressed by xdotool; and none."""
 
-import ctypes
-import ctypes.util
 import importlib.util
 import os
 import re
 import shutil
-import struct
 import subprocess
 import sys
 import time
@@ -16,6 +13,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import pytest
+from PIL import ImageGrab
 
 from films import COMMAND, HERE, environment
 
@@ -27,14 +25,13 @@ needs_window = pytest.mark.skipif(bool(MISSING), reason=f"not installed: {', '.j
 
 PATIENCE_S = 30  # for what must come: only a test that fails waits so long
 RUNNING, PAUSED = "running p: pause s: step x: quit", "PAUSED p: resume s: step x: quit"
-WHITE, DARK_ORANGE = (255, 255, 255), (255, 140, 0)
+WHITE, BLACK, DARK_ORANGE = (255, 255, 255), (0, 0, 0), (255, 140, 0)
 
 
 class Screen(NamedTuple):
-    """An X server without a window manager, which keeps its picture in a file."""
+    """An X server without a window manager."""
 
     name: str
-    picture: Path
 
     def xdotool(self, *words: str) -> str:
         return subprocess.run(["xdotool", *words], env=environment(DISPLAY=self.name), text=True,
@@ -46,16 +43,14 @@ class Screen(NamedTuple):
 
 
 @pytest.fixture(scope="module")
-def screen(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Screen]:
+def screen() -> Iterator[Screen]:
     read, write = os.pipe()
-    folder = tmp_path_factory.mktemp("screen")
     # Without -noreset it starts anew when its last window closes, and loses what comes meanwhile.
     with subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", "800x600x24",
-                           "-noreset", "-fbdir", str(folder)], pass_fds=[write],
-                          stderr=subprocess.DEVNULL) as server:
+                           "-noreset"], pass_fds=[write], stderr=subprocess.DEVNULL) as server:
         os.close(write)
         with os.fdopen(read) as pipe:
-            yield Screen(f":{pipe.readline().strip()}", folder / "Xvfb_screen0")
+            yield Screen(f":{pipe.readline().strip()}")
         server.terminate()
 
 
@@ -77,17 +72,14 @@ class Film:
         return [int(re.findall(f"{name}=([0-9]+)", geometry)[0])
                 for name in ("X", "Y", "WIDTH", "HEIGHT")]
 
-    def face(self, margin_px: int = 0) -> Counter[tuple[int, int, int]]:
-        """How often each colour (red, green, blue) is on it, or on its left and right margins."""
+    def face(self, margin_px: int = 150) -> Counter[object]:
+        """How often each colour is on it, or on its left and right margins: a screenshot."""
         left, top, width, height = self.place()
-        content = self.screen.picture.read_bytes()  # as xwd writes it: header, colours, rows
-        header = struct.unpack(">25I", content[:100])
-        counts: Counter[tuple[int, int, int]] = Counter()
-        for row in range(top, top + height):
-            at = header[0] + 12 * header[19] + header[12] * row + 4 * left
-            pixels = list(struct.iter_unpack("4B", content[at:at + 4 * width]))
-            counts.update((red, green, blue) for blue, green, red, _ in (
-                pixels[:margin_px] + pixels[-margin_px:] if margin_px else pixels))
+        counts: Counter[object] = Counter()
+        for at in (left, left + width - margin_px):
+            box = at, top, at + margin_px, top + height
+            for count, colour in ImageGrab.grab(box, xdisplay=self.screen.name).getcolors() or []:
+                counts[colour] += count
         return counts
 
     def shows(self, caption: str, colour: tuple[int, int, int]) -> None:
@@ -96,11 +88,17 @@ class Film:
         while True:
             assert self.process.poll() is None, self.out.read_text()[-200:]
             shown, counts = self.screen.xdotool("getwindowname", self.window), self.face()
-            is_text = sum(count for (r, g, b), count in counts.items() if r + g + b < 100) > 100
-            if shown == caption and counts[colour] > 300 * 20 / 2 and is_text:
+            if shown == caption and counts[colour] > 300 * 20 / 2 and counts[BLACK] > 100:
                 return
             assert time.monotonic() < deadline_s, (shown, counts.most_common(3))
             time.sleep(0.05)
+
+    def goes_on(self) -> None:
+        """Wait for some more frames, and so for a look at the keys."""
+        size, deadline_s = self.out.stat().st_size, time.monotonic() + PATIENCE_S
+        while self.out.stat().st_size < size + 1000:
+            assert time.monotonic() < deadline_s
+            time.sleep(0.01)
 
     def ends(self, why: str) -> str:
         """Wait for the end: with this reason. All that was printed."""
@@ -144,31 +142,27 @@ def test_caption_and_face_say_which_keys_there_are_and_whether_the_film_is_pause
 
 @needs_window
 def test_other_keys_in_the_window_do_nothing(film: Film) -> None:
-    film.press("Up", "F1", "q", "shift", "alt+x", "super+x", "ISO_Level3_Shift+x",
-               "203+x", "ctrl+x", "ctrl+semicolon", "alt+p", "ctrl+p", "p")  # 203: Mode_switch
+    film.press("KP_Enter")
+    for key in ("Up", "F1", "q", "shift", "alt+x", "super+x", "ISO_Level3_Shift+x",
+                "203+x", "ctrl+x", "ctrl+semicolon", "alt+p", "ctrl+p"):  # 203: Mode_switch
+        film.press(key)
+        film.goes_on()
+    film.press("p")
     film.shows(PAUSED, DARK_ORANGE)
     film.press("X")
     assert film.ends("x was pressed").count("paused") == 1
 
 
 @needs_window
-def test_closing_the_window_quits(film: Film) -> None:
-    close(film.screen.name, int(film.window))
-    film.ends("the window was closed")
+def test_closing_the_window_quits(screen: Screen) -> None:
+    from test_terminal import Terminal, quick
 
-
-def close(display: str, window: int) -> None:
-    """Click the window's x, as a window manager tells it: WM_PROTOCOLS, WM_DELETE_WINDOW."""
-    x11 = ctypes.CDLL(ctypes.util.find_library("X11") or pytest.skip("libX11 is not installed"))
-    x11.XOpenDisplay.restype = ctypes.c_void_p
-    x11.XInternAtom.restype = ctypes.c_ulong
-    server = ctypes.c_void_p(x11.XOpenDisplay(display.encode()))
-    protocols, delete = (x11.XInternAtom(server, name, 0)
-                         for name in (b"WM_PROTOCOLS", b"WM_DELETE_WINDOW"))
-    # An XClientMessageEvent, in an XEvent's size: type, serial, send_event, display, ...
-    event = (ctypes.c_long * 24)(33, 0, 0, 0, window, protocols, 32, delete)
-    x11.XSendEvent(server, ctypes.c_ulong(window), 0, 0, event)
-    x11.XCloseDisplay(server)
+    close = "pygame.event.post(pygame.event.Event(pygame.QUIT))"  # as a click on its x does
+    program = quick("import pygame; real = airtrack.step; "
+                    f"airtrack.step = lambda *a: [{close}, real(*a)][1]")
+    with Terminal(*program, DISPLAY=screen.name, SDL_VIDEODRIVER=None) as terminal:
+        terminal.until(" s: the window was closed.\r\n")
+        terminal.ends(0)
 
 
 @needs_window

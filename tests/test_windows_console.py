@@ -18,10 +18,9 @@ def windows(monkeypatch: pytest.MonkeyPatch, is_console: bool) -> ModuleType:
         typed=typed, kbhit=lambda: bool(typed), getwch=typed.popleft))
     for name in ("select", "termios"):
         monkeypatch.setitem(sys.modules, name, None)
-    for name in ("SIGHUP", "SIGQUIT", "SIGTSTP"):
+    for name in ("SIGHUP", "SIGQUIT"):
         monkeypatch.delattr(signal, name, raising=False)
-    monkeypatch.setattr(sys.stdin, "isatty", lambda: True)
-    monkeypatch.setattr(sys.stdout, "isatty", lambda: is_console)
+    monkeypatch.setattr("os.isatty", lambda number: number == 0 or is_console)
     monkeypatch.setattr(sys, "platform", "win32")
     spec = importlib.util.spec_from_file_location("examples_on_windows", HERE / "examples.py")
     module = importlib.util.module_from_spec(spec)  # type: ignore[arg-type]
