@@ -30,7 +30,7 @@ from collections.abc import Callable, Iterator
 from contextlib import nullcontext
 from dataclasses import Field, dataclass, field, fields, replace
 from functools import cache
-from itertools import count, islice
+from itertools import count
 from typing import Any
 
 from examples import EXAMPLES, OWN_SCENE, Keys, taken_keys
@@ -112,7 +112,7 @@ def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -
     With CR * overlap longer than the track, it is thrown through the far wall (example 14).
     """
     overlap_m = x_m - wall_m
-    return x_m - overlap_m * (1 + CR), -CR * v_mps
+    return wall_m - CR * overlap_m, -CR * v_mps
 
 def arrival(d_m: float, u_mps: float, g_mps2: float) -> tuple[float, float]:
     """How long to a wall d_m ahead, and how fast there: t_s, w_mps. u and g are towards it."""
@@ -310,33 +310,34 @@ def paced(scene: Scene, keys: Keys) -> Iterator[tuple[float, float]]:
     deadlines are absolute: a sleep of dt after each frame would add the time to compute and print.
     """
     began_s = deadline_s = time.perf_counter() - 1 / scene.fps_target  # so the first is due at once
-    for due_s, _ in planned(scene):
+    for due_s, fps in planned(scene):
         deadline_s += due_s
         was_paused = keys.wait_until(deadline_s)
         if keys.why_quit:
             return
         now_s = time.perf_counter()
-        took_s = now_s - began_s
+        took_s = now_s - began_s or due_s  # 0 where the clock has not ticked yet
         is_stall = took_s > max(0.15, 1.5 * due_s)  # visibly long: a dragged window, say
-        yield due_s if was_paused or is_stall else took_s, 1 / took_s
+        yield due_s if was_paused or is_stall else took_s, fps if was_paused else 1 / took_s
         began_s = now_s
-        if now_s > deadline_s + due_s:  # late by a whole frame: do not race to catch up
+        if was_paused or now_s > deadline_s + max(due_s, 0.02):  # late: do not race to catch up
             deadline_s = now_s
 
 def truth_of(scene: Scene) -> Scene:
     """The same scene, solved exactly. It has to start on the track."""
     return replace(scene, motion="exact", correction="replay", x_m=scene.to_track(scene.x_m))
 
-def is_at_rest(scene: Scene, v_mps: float, recent_m: deque[float]) -> bool:
+def is_at_rest(scene: Scene, v_mps: float, recent_m: deque[float], rest_s: float) -> bool:
     """Whether the car rests against the wall that it is pulled to or, without a pull, against any.
 
-    Its mean position in 1/3 s, longer than a turn, is within 1 mm of the wall. (By Euler's methods
-    the v of a car that leans on it need not be 0.) Without a pull v must be 0, or it leaves again.
+    Its mean position in the last rest_s is within 1 mm of the wall, and the pull holds it there: v
+    is no more than the pull changes in that time. (By Euler's methods the v of a car that leans on
+    a wall need not be 0.)
     """
     mean_m = sum(recent_m) / len(recent_m)
     is_left = scene.a_mps2 <= 0 and abs(mean_m - scene.left_edge_m) <= 0.001
     is_right = scene.a_mps2 >= 0 and abs(mean_m - scene.right_edge_m) <= 0.001
-    is_held = scene.a_mps2 != 0 or v_mps == 0
+    is_held = abs(v_mps) <= abs(scene.a_mps2) * rest_s
     return len(recent_m) == recent_m.maxlen and is_held and (is_left or is_right)
 
 def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None:
@@ -344,10 +345,11 @@ def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None
     truth = truth_of(scene)
     x_m, v_mps = scene.x_m, scene.v_mps
     true_m, true_mps = (truth.x_m if scene.show_exact_mark else None), truth.v_mps
-    recent_m = deque[float](maxlen=max(10, round(scene.fps_target / 3)))  # 1/3 s, at least 10
+    rest_s = max(1 / 3, 10 / scene.fps_target)  # at least ten frames
+    recent_m = deque[float](maxlen=round(rest_s * scene.fps_target))
     frame, t_s, why = 0, 0.0, "that is the frame limit"
     beats = paced(scene, keys) if keys else planned(scene)
-    for frame, (length_s, fps) in enumerate(islice(beats, max_frames), start=1):
+    for frame, (length_s, fps) in zip(range(1, max_frames + 1), beats, strict=False):
         # Move and settle.
         dt_s = length_s if scene.use_observed_dt else 1 / scene.fps_target
         t_s += dt_s
@@ -362,7 +364,7 @@ def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None
             keys.count(frame, t_s)
         # At rest?
         recent_m.append(x_m)
-        if scene.auto_off and is_at_rest(scene, v_mps, recent_m):
+        if scene.auto_off and is_at_rest(scene, v_mps, recent_m, rest_s):
             why = "the car is at rest against a wall"
             break
     why = (keys.why_quit if keys else "") or why
@@ -405,7 +407,7 @@ CHART_FPS = (10, 30, 60, 120, 240, 480, 960, 1920, 3840)  # multiples of 10, for
 SERIES = {"a": ("backward", "surface"), "b": ("backward", "rebound"), "c": ("exact", "rebound"),
           "d": ("exact", "rewind"), "e": ("exact", "replay")}
 Points = dict[str, list[tuple[float, float]]]  # letter: (error_m, cost_us) at each rate
-step_once = cache(step)  # all methods need the truth at the same moments
+cached_step = cache(step)  # all methods need the truth at the same moments
 
 def simulate(scene: Scene, fps: int, cut: int) -> Iterator[tuple[State, State]]:
     """Run for SPAN_S; yield the car's state and the true one, every 0.1 s or every longer frame.
@@ -421,7 +423,7 @@ def simulate(scene: Scene, fps: int, cut: int) -> Iterator[tuple[State, State]]:
     for frame in range(frames_a_sample, SPAN_S * fps + 1, frames_a_sample):
         for _ in range(frames_a_sample):
             x_m, v_mps, _ = step(scene, x_m, v_mps, 1 / fps)
-        yield (x_m, v_mps), step_once(truth, truth.x_m, truth.v_mps, shift_s + frame / fps)[:2]
+        yield (x_m, v_mps), cached_step(truth, truth.x_m, truth.v_mps, shift_s + frame / fps)[:2]
 
 def cost_us(scene: Scene, fps: int) -> float:
     """Processor time of the bare steps for a simulated second, the best of several runs."""
@@ -445,10 +447,9 @@ def first_within(series: list[tuple[float, float]], pixel_m: float) -> str:
 def table(scene: Scene) -> Points:
     """Measure every series at every rate, and print it row by row."""
     points: Points = {letter: [] for letter in SERIES}
-    heads = [(f"{letter}: {motion}", f"+ {correction}", "error m    us")
-             for letter, (motion, correction) in SERIES.items()]
-    for label, *words in zip(("\n    ", "    ", " FPS"), *heads, strict=True):
-        print(label, *(f"{word:>14}" for word in words))
+    print("\n    ", *(f"{f'{letter}: {motion}':>14}" for letter, (motion, _) in SERIES.items()))
+    print("    ", *(f"{f'+ {correction}':>14}" for _, correction in SERIES.values()))
+    print(" FPS" + "  error m    us" * len(SERIES))
     for fps in CHART_FPS:
         row = f"{fps:4}"
         for letter, (motion, correction) in SERIES.items():
@@ -472,17 +473,17 @@ def picture(points: Points, pixel_m: float) -> None:
     """Print the points: error to the right, processor time down, four rows to a power of ten."""
     marks = [(round(4 * math.log10(us)), error_px(error_m), letter)
              for letter, series in points.items() for error_m, us in series]
-    wall_px = error_px(pixel_m)
+    limit_px = error_px(pixel_m)
     say("To the right: largest error, sampled every 0.1 s. Down: processor time for a simulated "
         "second, in us (microseconds). The best are in the upper left. Errors to the right of the "
         "| are more than a drawn pixel: a film shows them.")
     say("; ".join(f"{letter}: {' + '.join(method)}" for letter, method in SERIES.items())
         + "; +: several of them.")
-    print(f"\n{'one drawn pixel |':>{wall_px + 11}}")
+    print(f"\n{'one drawn pixel |':>{limit_px + 11}}")
     print("    us    <=1 um  10 um   0.1 mm  1 mm    1 cm    0.1 m   1 m     >=10 m")
     for row in range(min(marks)[0], max(marks)[0] + 1):
         line = bytearray(b" " * 57)
-        paint(line, "|", wall_px)
+        paint(line, "|", limit_px)
         for cost_px, column, letter in marks:
             if cost_px == row:
                 paint(line, letter if chr(line[column]) in f" |{letter}" else "+", column)
@@ -543,17 +544,17 @@ VERDICTS = {  # from the worst to the best
 def verdict(scene: Scene, fps: int, cut: int) -> str:
     """The letter of one run: the first of X, S, -, G, L and P that fits. W takes several runs."""
     states = list(simulate(scene, fps, cut))
-    ending = states[len(states) * 3 // 4:]  # 5 s of 20
+    late = len(states) * 3 // 4  # where the last 5 of 20 s begin
     beyond_m = [x_m - scene.to_track(x_m) for (x_m, _), _ in states]
     track_m = scene.right_edge_m - scene.left_edge_m
     if max(map(abs, beyond_m)) > track_m:
         return "X"
-    if min(beyond_m[-len(ending):]) > 0 or max(beyond_m[-len(ending):]) < 0:
+    if min(beyond_m[late:]) > 0 or max(beyond_m[late:]) < 0:
         return "S"
     if max(abs(x_m - true_m) for (x_m, _), (true_m, _) in states) <= 1 / scene.m_to_px:
         return "-"
     gain = sum((v_mps**2 - true_mps**2) / 2 - scene.a_mps2 * (x_m - true_m)
-               for (x_m, v_mps), (true_m, true_mps) in ending) / len(ending)  # in E
+               for (x_m, v_mps), (true_m, true_mps) in states[late:]) / len(states[late:])  # in E
     one_percent = 0.01 * (scene.v_mps**2 / 2 + abs(scene.a_mps2) * track_m)
     return "G" if gain > one_percent else "L" if gain < -one_percent else "P"
 
@@ -642,22 +643,21 @@ def in_words(scene: Scene) -> str:
         speed = f"moving {ways[scene.v_mps > 0]} at {abs(scene.v_mps):g} m/s"
     if scene.a_mps2:
         pull = f"pulled {ways[scene.a_mps2 > 0]} at {abs(scene.a_mps2):g} m/s^2"
-    return (f"The car starts at {scene.x_m:g} m, {speed}, {pull}; walls at "
+    beyond = "" if scene.x_m == scene.to_track(scene.x_m) else ", beyond a wall"
+    return (f"The car starts at {scene.x_m:g} m{beyond}, {speed}, {pull}; walls at "
             f"{scene.left_edge_m:g} and {scene.right_edge_m:g} m; CR={scene.CR:g}.")
 
 def method_in_words(scene: Scene) -> str:
-    """Motion, correction, frame rate, and whatever else is not the default, in words."""
-    told = ("x_m", "v_mps", "a_mps2", "left_edge_m", "right_edge_m", "CR", "motion", "correction",
-            "fps_target")
-    others = "".join(f", {row.name}={getattr(scene, row.name)}" for row in fields(scene)
-                     if row.name not in told and getattr(scene, row.name) != row.default)
+    """Motion, correction, frame rate and, where they are set, observed dt and jitter, in words."""
+    others = "".join(f", {name}={getattr(scene, name)}" for name in ("use_observed_dt", "jitter")
+                     if getattr(scene, name))
     return (f"Motion {scene.motion}, correction {scene.correction}, {scene.fps_target:g} frames a "
             f"second{others}.")
 
 def fitted(scene: Scene, details: bool) -> Scene:
     """The scene with picture and zoom shrunk together until line and details fit the terminal."""
     true_m = 0.0 if scene.show_exact_mark else None
-    widest = details_text(-9999.99, -99.99, scene.fps_target, true_m) if details else ""
+    widest = details_text(-9999.99, -9999.99, scene.fps_target, true_m) if details else ""
     columns = shutil.get_terminal_size().columns - len(widest)
     if columns >= scene.width_px or not sys.stdout.isatty():
         return scene
@@ -694,7 +694,7 @@ def film(scene: Scene, number: int, title: str, options: dict[str, str]) -> int:
                 say(paragraph)
             keys.leave_time(example.pause_s)
         print(flush=True)
-        run(view, details, min(max_frames, sys.maxsize), keys)
+        run(view, details, max_frames, keys)
         if keys and keys.frame and not keys.status and number in EXAMPLES:
             if scene != Scene(**example.settings):
                 say("(What follows is about the example as it is, without your changes.)")
@@ -736,6 +736,7 @@ def parsed(words: list[str]) -> tuple[dict[str, str], dict[str, Any]]:
     """What the words give: EXAMPLE, command and options; and the settings that they change."""
     given, changes = {}, {}
     for word in (rest := iter(words)):
+        word = "d" if word in ("-d", "D") else word
         name, equals, text = word.partition("=")
         if name in ("--frames", "--save"):
             given[name] = text if equals else next(rest, "")
@@ -773,7 +774,7 @@ def obey(words: list[str]) -> int:
         return film(scene, number, title + changed, given)
     on_track = replace(scene, x_m=scene.to_track(scene.x_m))
     whose = f"Example {number}'s scene" if number in EXAMPLES else example.title
-    beyond = "" if on_track == scene else " It starts beyond a wall; here all methods start on it."
+    beyond = "" if on_track == scene else " Here all methods start on that wall."
     heading = f"{whose}{changed}. {in_words(scene)}{beyond}"
     if command == "stability":
         stability(on_track, heading)

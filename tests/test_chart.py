@@ -43,8 +43,8 @@ def test_the_heading_says_what_is_measured_and_is_true(command: str, capsys: Cap
         return capsys.readouterr().out.split("\n\n", 1)
 
     heading, rest = told("4", "CR=0.5")
-    for part in ("Example 4's scene, CR=0.5.", "at 0.2 m", "20 simulated seconds", "nine cuts",
-                 "starts beyond a wall; here all methods start on it",
+    for part in ("Example 4's scene, CR=0.5.", "at 0.2 m, beyond a wall, moving", "nine cuts",
+                 "Here all methods start on that wall.", "20 simulated seconds",
                  "motion, correction and rate do not matter"):
         assert part in " ".join(heading.split())
     on_it, same = told("4", "CR=0.5", "x_m=0.25", "motion=forward", "fps_target=7")

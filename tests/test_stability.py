@@ -76,6 +76,8 @@ def test_the_rebound_may_throw_the_car_through_the_far_wall(
     x_m, _, mark_m = step(scene, 0.0, side * (track_m / 2 + overlap_m), 1.0)
     assert mark_m == pytest.approx(side * (track_m / 2 + overlap_m))
     assert (side * x_m < -track_m / 2) is (CR * overlap_m > track_m)
+    scene = Scene(left_edge_m=-track_m / 2, right_edge_m=track_m / 2, CR=0, x_m=0)
+    assert abs(step(scene, 0.0, side * (track_m / 2 + overlap_m), 1.0)[0]) == track_m / 2
 
 
 # 4. The law of the hops: at an elastic wall, to which the car is pulled, each hop lasts so many
