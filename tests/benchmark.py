@@ -1,63 +1,56 @@
 """What the air track costs, as ratios: python tests/benchmark.py
 
-Not a test: a test must not depend on a machine's speed. A frame's cost is processor time, without
-that of the start, the least of several runs; frame rates are of a film in a pipe.
+Not a test: a test must not depend on a machine's speed. Costs are processor time, the least of
+several runs.
 """
 
+import io
 import math
-import re
-import resource
-import subprocess
 import sys
-import tempfile
 import time
 from collections.abc import Callable
+from contextlib import redirect_stdout
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from timeit import repeat
 from typing import Any
 
-HERE = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(HERE))
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
-from airtrack import Scene, step, truth_of  # noqa: E402
-from examples import EXAMPLES  # noqa: E402
+from airtrack import SERIES, Scene, run, step, truth_of
+from examples import EXAMPLES
 
-AIRTRACK = [sys.executable, str(HERE / "airtrack.py")]
-FRAMES = 100_000
+STEPS = 20_000
 
 
-def frame_s(command: Callable[[int], list[str]]) -> float:
-    """Processor time of a frame, whose output goes into a file."""
-    def spent_s(frames: int) -> float:
-        before = resource.getrusage(resource.RUSAGE_CHILDREN)
-        with tempfile.TemporaryFile() as file:
-            subprocess.run(command(frames), stdout=file, check=True)
-        after = resource.getrusage(resource.RUSAGE_CHILDREN)
-        return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-
-    whole_s, start_s = (min(spent_s(frames) for _ in range(5)) for frames in (FRAMES, 1))
-    return (whole_s - start_s) / FRAMES
+def least_s(call: Callable[[], object]) -> float:
+    """Processor time of a call, the least of several."""
+    return min(repeat(call, number=1, repeat=7, timer=time.process_time))
 
 
-def film() -> None:
-    """The film of example 0, beside the README's one-pager, which does not keep time here."""
-    readme = (HERE / "README.md").read_text(encoding="utf-8")
-    page, = re.findall(r"```python\n(import time.*?)```", readme, re.DOTALL)
-    plain = page.replace("while True", "for _ in range(FRAMES)").replace("time.sleep(dt_s)", "pass")
-    plain_s = frame_s(lambda frames: [sys.executable, "-c", plain.replace("FRAMES", str(frames))])
-    ours_s = frame_s(lambda frames: [*AIRTRACK, "0", "--fast", "--frames", str(frames)])
-    print(f"a frame of example 0 into a file: {ours_s * 1e6:.1f} us, by the one-pager "
-          f"{plain_s * 1e6:.1f} us: {plain_s / ours_s:.1f} times as fast")
-
-
-def cost_s(scene: Scene, take: Callable[..., Any] = step) -> float:
-    """Processor time of a step of 0.1 s, in a run of the scene, the least of several runs."""
-    def run() -> None:
+def cost_s(scene: Scene) -> float:
+    """What a step of 0.1 s costs in a run of the scene."""
+    def steps() -> None:
         x_m, v_mps = scene.x_m, scene.v_mps
-        for _ in range(20_000):
-            x_m, v_mps, _ = take(scene, x_m, v_mps, 0.1)
-    return min(repeat(run, number=1, repeat=7, timer=time.process_time)) / 20_000
+        for _ in range(STEPS):
+            x_m, v_mps, _ = step(scene, x_m, v_mps, 0.1)
+    return least_s(steps) / STEPS
+
+
+def frame() -> None:
+    """A frame's step beside the rest of it, drawing and printing its line (into memory)."""
+    ten = Scene(**EXAMPLES[10].settings)
+    steps_s = {" + ".join(method): cost_s(replace(ten, motion=method[0], correction=method[1]))
+               for method in SERIES.values()}
+
+    def film() -> None:
+        with redirect_stdout(io.StringIO()):
+            run(ten, False, STEPS, None)
+    line_s = least_s(film) / STEPS - cost_s(ten)
+    for method, step_s in steps_s.items():
+        print(f"example 10 by {method}: a step takes {step_s * 1e6:.2f} us, drawing its line "
+              f"{line_s / step_s:.0f} times as long")
 
 
 def elsewhere() -> None:
@@ -96,25 +89,12 @@ def elsewhere() -> None:
 
     for max_step_s in (math.inf, 0.1):
         call = partial(solve, ten, max_step_s)
-        spent_s = min(repeat(call, number=1, repeat=5, timer=time.process_time))
         print(f"solve_ivp, max_step {max_step_s}, example 10: "
-              f"{spent_s / 200 / cost_s(truth_of(ten)):.0f} times exact + replay at 10 FPS, "
+              f"{least_s(call) / 200 / cost_s(truth_of(ten)):.0f} times exact + replay at 10 FPS, "
               f"{off_m(ten, call()):.1g} m off; with v = 10, a = -9.81, CR = 0.95 "
               f"{off_m(thrown, solve(thrown, max_step_s)):.2g} m off")
 
 
-def rates() -> None:
-    """How well a film holds its frame rate, from 2 s on for 10 s."""
-    for fps in (300, 240, 10):
-        words = "0", f"fps_target={fps}", "--frames", str(12 * fps)
-        with subprocess.Popen([*AIRTRACK, *words], stdout=subprocess.PIPE, text=True) as process:
-            assert process.stdout
-            moments_s = [time.perf_counter() for line in process.stdout if "FPS =" in line]
-        held = 10 / (moments_s[-1] - moments_s[2 * fps - 1])
-        print(f"{fps} FPS in a pipe: held to {held:.2%}")
-
-
 if __name__ == "__main__":
-    film()
+    frame()
     elsewhere()
-    rates()
