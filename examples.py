@@ -33,7 +33,6 @@ class Example(NamedTuple):
     settings: dict[str, Any]
     look_for: str  # before the film, without the answer
     seen: str = ""  # after it
-    pause_s: float = 3.0  # to read the header in
     details: bool = False  # shown even without d
 
 ELASTIC = {"x_m": 2.0, "a_mps2": -2.0, "CR": 1.0, "show_start_mark": True}
@@ -49,7 +48,7 @@ EXAMPLES = {
         "fps_target": 1 / 0.015, "correction": "surface", "auto_off": False,
         "show_collision_mark": False},
         "An air track: * is the car, | are the walls, and each line is one moment. Where will the "
-        "car be after a minute? End the film with x.",
+        "car be after 45 s? Then end the film with x.",
         "It lies at the left wall, to which it is pulled. It lost 20 % of its speed in each of 26 "
         "bounces, the last in frame 2930 (t = 44 s). From then on each frame pulls it into the "
         "wall and puts it back. python airtrack.py -h lists the tour.",
@@ -60,7 +59,7 @@ EXAMPLES = {
         "the car moves. The rows above are its past. Before each bounce, say where it will turn.",
         "It was pulled to the left, and kept 70 % of its speed at each bounce. So it came back "
         "about half as far each time (0.7^2 = 0.49): 0.87 m, 0.46 m, 0.21 m from the wall. After "
-        "251 frames, a third of a second at rest, the run stops by itself.", pause_s=5.0),
+        "251 frames, a third of a second at rest, the run stops by itself."),
     2: Example("No correction", {
         "x_m": 1.65, "v_mps": 2.7, "CR": 1.0, "correction": "none", "show_collision_mark": False},
         "Nothing puts the car back on the track after a collision. How far does it go into the "
@@ -76,41 +75,42 @@ EXAMPLES = {
         "60 % of the speed is too little to get out in one frame. So the next frame reverses it "
         "again, now into the wall, and so on. The swings die down. From frame 60 on each frame "
         "begins at 0.02 m/s out of the wall (see d). The pull turns that into 0.03 m/s into it, of "
-        "which 60 %, reversed, are 0.02 again. So the car sinks by 1 mm a frame. At full width it "
-        "is out of the picture from frame 273 on: <", pause_s=4.0),
+        "which 60 %, reversed, are 0.02 again. So the car sinks by 1 mm a frame. After about nine "
+        "seconds it is out of the picture: <"),
     4: Example("A high frame rate", {
         "x_m": 0.2, "v_mps": 10.0, "a_mps2": -10.0, "CR": 0.8, "fps_target": 300.0,
         "show_collision_mark": False},
         "Each line is a 300th of a second. Wait for its end. Then scroll back, as far as your "
         "terminal keeps the lines: what does the motion look like?",
-        "The first bounces are hundreds of lines long, the last ones draw a tail. The run stops "
-        "after 1880 frames. The car starts just beyond the left wall, at 10 m/s. Each of the first "
-        "two frames finds it in collision and takes 20 %, so it leaves the wall at 6.4 m/s."),
+        "Each hop is an arc, a parabola. The first are hundreds of lines long, the last ones draw "
+        "a tail. The run stops after 1880 frames. The car starts just beyond the left wall, at 10 "
+        "m/s. Each of the first two frames finds it there and takes 20 %: it leaves at 6.4 m/s."),
     5: Example("Where each collision was found", {
         "x_m": 2.0, "v_mps": 3.0, "a_mps2": 2.0, "CR": 0.7},
         "The car is pulled to the right. A 0 is where the move alone put it, beyond the wall. "
         "Where is the * in the same line? Does every collision show a 0?",
-        "The * is on the track, at 70 % of the distance from the wall to the 0. Most collisions "
-        "are too near the wall to show a 0: at full width 7 of 19 do, the first in frame 67; a "
-        "narrower picture may show others. With fps_target=10 each of the first five bounces does "
-        "(press x to end that film). The car is at rest after 236 frames."),
+        "The * is on the track, at 70 % of the distance from the wall to the 0. Not each of the 19 "
+        "collisions shows a 0: many are so near the wall that it hides them. With fps_target=10 "
+        "each of the first five does (press x to end that film). The car is at rest after 236 "
+        "frames."),
     6: Example("Example 5 zoomed out", {
         "x_m": 2.0, "v_mps": 3.0, "a_mps2": 2.0, "CR": 0.7, "m_to_px": 30.0},
         "The drawing is smaller than in example 5. Does the motion change? Count the frames.",
-        "Only the drawing changes: at full width the walls are 58 columns apart instead of 107. "
-        "With d the figures are those of example 5, and the run ends after 236 frames again."),
+        "Only the drawing changes: it is 30/55 as wide. With d the figures are those of example 5, "
+        "and the run ends after 236 frames again."),
     7: Example("Elastic, small steps", ELASTIC | {"fps_target": 240.0},
         "No speed is lost in a bounce. So the car should come back to the start mark, the dot at 2 "
         "m, every time. Does it? End the film with x.",
-        "Nearly. It turns 1.1 cm short of the mark, first in frame 633 (t = 2.64 s), where at full "
-        "width *. is drawn. The next time it turns at the mark, then short of it again."),
+        "Nearly. It turns 1.1 cm short of the mark, first in frame 633 (t = 2.64 s). The next time "
+        "it turns at the mark, then short of it again."),
     8: Example("Elastic, large steps", COARSE,
         "Example 7 at 10 FPS: the car moves up to 0.26 m in a frame. Where does it turn now? Watch "
         "four turns, then end the film with x.",
-        "After the first bounce it turns at 1.88 m, 12 cm short of the start mark: the correction "
-        "does not know when in the frame the car met the wall. The error of the second bounce "
-        "undoes that of the first: it turns at the mark. This goes on, as it starts at rest: its "
-        "speeds are whole multiples of a dt, so the same two errors come by turns."),
+        "After the first bounce it turns at 1.88 m, 12 cm short of the start mark, after the "
+        "second at the mark, and so on. Backward Euler costs 1 cm of height a frame, 26 cm in fall "
+        "and rise. The rebound gives back twice what the car was beyond the wall: 14 cm, then 38 "
+        "cm. It starts at rest, so its speeds are whole multiples of a dt, and the same two "
+        "bounces come by turns."),
     9: Example("Elastic, large and irregular steps", COARSE | IRREGULAR,
         "Example 8 with irregular frames: each is up to a quarter longer or shorter (jitter), and "
         "moves the car for as long as the frame before took. Where does it turn? Press x after 30 "
@@ -126,16 +126,16 @@ EXAMPLES = {
         "Euler's method and the rebound, it does not."),
     11: Example("The exact solution, irregular steps", EXACT | IRREGULAR,
         "Example 10 with irregular frames. Where does the car turn? End the film with x.",
-        "The exact solution does not depend on how the time is cut into frames, so the car comes "
-        "back to the start mark all the same."),
-    12: Example("The exact solution, losing energy", EXACT | IRREGULAR | {
-        "CR": 0.8, "correction": "replay"},
+        "At the start mark, all the same. The exact solution does not depend on how the time is "
+        "cut into frames, as long as no frame holds two bounces (example 12) or misses one (18)."),
+    12: Example("The exact solution, losing energy", EXACT | IRREGULAR | {"CR": 0.8},
         "Example 11, but the car keeps 80 % of its speed at each bounce, and the bounces come "
         "faster and faster. How many are there before it is at rest?",
-        "Infinitely many, and all before t = 11.91 s, the Zeno point. A frame may hold many "
-        "bounces, and one holds infinitely many: that takes replay. In the last ten of 122 frames "
-        "the bounces are too low to see. Compare python airtrack.py 12 d correction=rewind: there "
-        "it hops on for eight frames more."),
+        "Infinitely many, and all before t = 11.91 s, the Zeno point. Rewind settles one bounce a "
+        "frame. So the car hops on, too low to see, until the film ends in frame 130. Yet rewind "
+        "is all that this scene needs: it is up to 4 mm off in this film, less than a quarter of a "
+        "column. Replay follows them all: python airtrack.py 12 d correction=replay is at rest in "
+        "frame 122."),
     13: Example("Forward Euler beside the truth", {
         "x_m": 0.25, "v_mps": 2.48, "a_mps2": -2.0, "CR": 1.0, "motion": "forward",
         "fps_target": 10.0, "show_exact_mark": True},
@@ -171,8 +171,8 @@ EXAMPLES = {
         "The * stays on the o until the first bounce, in frame 14, and then leaves it: by up to "
         "1.8 m within 20 s. What fails is the rebound. It lifts the car off the wall without "
         "slowing it down. So the car gains energy at each bounce off the left wall, to which it is "
-        "pulled, and gives some back at the right one. To each hop the motion adds no frame, the "
-        "rebound 2 (see example 19). With correction=rewind the * stays on the o."),
+        "pulled, and gives some back at the right one. Motion and collision add up (example 19): 0 "
+        "and +2 lines a hop. With correction=rewind the * stays on the o."),
     18: Example("The exact solution at 4 FPS", {
         "x_m": 0.65, "v_mps": 5.0, "a_mps2": -8.0, "CR": 1.0, "motion": "exact",
         "correction": "rewind", "fps_target": 4.0, "show_exact_mark": True},
@@ -187,15 +187,26 @@ EXAMPLES = {
         "x_m": 0.84, "v_mps": 0.098, "a_mps2": -2.0, "CR": 1.0, "correction": "surface",
         "fps_target": 10.0, "show_exact_mark": True},
         "Nothing is lost in a bounce: the o bounces on for ever. And the *? Count its hops, in "
-        "lines from one bounce off the left wall to the next. End it when you have seen enough.",
+        "lines from bounce to bounce off the left wall. (With d: there v turns positive.)",
         "The hops of the * last 15, 14, 13 ... lines, each one fewer than the one before, down to "
         "2 and 1, which are too low to see. In frame 134 it is at rest. In each hop backward Euler "
-        "makes -2 frames, surface +1; so do forward +2, exact 0, none 0, rebound +2. Foretell the "
-        "other eight, as python airtrack.py 19 motion=exact, and count, up to the right wall."),
+        "makes -2 lines, surface +1. So do forward +2, exact 0, none 0, rebound +2. Foretell the "
+        "other eight, as python airtrack.py 19 d motion=exact, and count, up to the right wall."),
+    20: Example("Hops that lose speed, counted", {
+        "x_m": 0.66, "v_mps": 0.75, "a_mps2": -2.0, "CR": 0.8, "motion": "exact",
+        "fps_target": 10.0, "show_exact_mark": True},
+        "Each bounce takes 20 % of the speed. Which comes to rest, the o or the *, and when? Count "
+        "the hops of the *, in lines. (With d: at a bounce v turns positive.) End with x.",
+        "The o lies still from t = 7.05 s on, its Zeno point. The hops of the * last 14, 12, 10, 9 "
+        "lines, and then 9 for ever, 20 cm high. Exact motion adds 0 lines, the rebound 2: one "
+        "before the bounce, which keeps 80 % of it, and one after. So 9 is followed by 0.8 (9 + 1) "
+        "+ 1 = 9. At a higher rate the hops end at about as many lines, so they are lower. With "
+        "motion=backward correction=surface, -2 + 1, the * comes to rest."),
 }
 OWN_SCENE = Example("Your own scene", {},
-    "Between the walls only v_mps and a_mps2 move the car: without them it stands still. python "
-    "airtrack.py -h lists all settings. For example: python airtrack.py 99 d x_m=1 v_mps=3 CR=0.9")
+    "Where does the car turn, and does it come to rest? Under a pull and at CR < 1, backward + "
+    "surface always does, exact + replay when the true car does, the default, backward + rebound, "
+    "by luck. All settings: python airtrack.py -h")
 
 
 # ==== The terminal's keys =======================================================================
@@ -333,6 +344,7 @@ QUIT_KEYS = {"x": "x was pressed", ESC: "Esc was pressed", WINDOW_CLOSED: "the w
 PAUSE_KEYS = ("p", "\x13")  # Ctrl-S
 CTRL_C = "\x03"
 BEGIN_KEYS = ("\r", "\n", CTRL_C)
+THINK_S, WAIT_S = 10.0, 3.0  # before the film: where a key can begin it, and where none can
 SLICE_S = 0.05  # how long a key or a signal waits for an answer, at most
 SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP", "SIGQUIT")  # Windows has only the first two
 
@@ -362,14 +374,17 @@ class Keys:
         window = [] if self.window.why_shut else ["in the little window"]
         return " and ".join(window + ["in this terminal"] * HAS_KEYBOARD)
 
-    def help(self, pause_s: float) -> Iterator[str]:
-        """What to press, and where, in paragraphs."""
+    def help(self, question: str) -> Iterator[str]:
+        """What to press, and where; the question; how the film begins."""
         if self.window.why_shut:
             yield f"No window for the keys: {self.window.why_shut}."
         if self.where():
             yield f"Keys, {self.where()}: p or Ctrl-S pauses, s steps one frame further, x quits."
-        hint = "p to hold this text, Enter to begin" if self.where() else "Ctrl-C to begin"
-        yield f"The film begins in {pause_s:g} s; press {hint}."
+        yield question
+        if self.where():
+            yield f"Enter or Ctrl-C begins the film, p holds this text; it begins in {THINK_S:g} s."
+        else:
+            yield f"The film begins in {WAIT_S:g} s. Ctrl-C begins it at once."
 
     def look(self) -> None:
         """Act on the signals and the keys that came since the last look."""
@@ -412,9 +427,9 @@ class Keys:
         self.frame, self.t_s = frame, t_s
         self.to_show -= 1
 
-    def leave_time(self, pause_s: float) -> None:
+    def leave_time(self) -> None:
         """Leave time to read the header. If Ctrl-C cuts it short, a diamond says so."""
-        self.wait_until(time.perf_counter() + pause_s)
+        self.wait_until(time.perf_counter() + (THINK_S if self.where() else WAIT_S))
         if self.begun_by == CTRL_C:
             print("   *\n  * *\n *   *\n  * *\n   *")
         self.begun_by = self.begun_by or "the clock"

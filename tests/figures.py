@@ -9,11 +9,11 @@ from functools import cache
 import pytest
 
 import airtrack
-from airtrack import Scene, State, main
+from airtrack import Scene, main
 from reference import states
 
 RATES = (10, 30, 60, 120, 240, 480, 960, 1920, 3840)
-Samples = list[tuple[State, State]]
+Samples = list[tuple[float, ...]]  # x, v, the true x and the true v
 simulate = airtrack.simulate
 
 
@@ -54,10 +54,15 @@ def errors_m(example: str, letter: str) -> list[float]:
     return [float(cell[0]) for cell in columns(example)[1 + "abcde".index(letter)][3:-2]]
 
 
+def shift_of(cut: int, fps: int) -> float:
+    """How long after the start a cut begins: none, or (k - 2/3)/9 of a frame."""
+    return (3 * cut - 2) / 27 / fps if cut else 0.0
+
+
 @cache
-def truth(CR: float, fps: int, cut: int) -> list[State]:
+def truth(CR: float, fps: int, cut: int) -> list[tuple[float, float]]:
     """The true states at the samples of a fall from 2 m at 2 m/s^2, from 60-digit decimals."""
-    shift_s, frames = (3 * cut + 1) / 27 / fps, max(1, fps // 10)
+    shift_s, frames = shift_of(cut, fps), max(1, fps // 10)
     times_s = [Decimal(shift_s + frame / fps) for frame in range(frames, 20 * fps + 1, frames)]
     return [(float(x), float(v)) for x, v in states(Scene(x_m=2, a_mps2=-2, CR=CR), times_s)]
 
@@ -65,10 +70,10 @@ def truth(CR: float, fps: int, cut: int) -> list[State]:
 @cache
 def told_plainly(motion: str, correction: str, CR: float, fps: int, cut: int) -> Samples:
     """The samples of that fall by a method, told plainly."""
-    dt_s, shift_s, frames = 1 / fps, (3 * cut + 1) / 27 / fps, max(1, fps // 10)
+    dt_s, shift_s, frames = 1 / fps, shift_of(cut, fps), max(1, fps // 10)
     x, v = 2 - shift_s**2, -2 * shift_s
-    found = []
-    for true in truth(CR, fps, cut):
+    found: Samples = []
+    for true_x, true_v in truth(CR, fps, cut):
         for _ in range(frames):
             move = v * dt_s if motion == "forward" else (v - 2 * dt_s) * dt_s
             x += v * dt_s - dt_s**2 if motion == "exact" else move
@@ -77,20 +82,20 @@ def told_plainly(motion: str, correction: str, CR: float, fps: int, cut: int) ->
             if x != wall:
                 x = {"none": x, "surface": wall, "rebound": wall - CR * (x - wall)}[correction]
                 v *= -CR
-        found.append(((x, v), true))
+        found.append((x, v, true_x, true_v))
     return found
 
 
 def letter_told_plainly(samples: Samples) -> str:
     """What a run of that fall deserves on the map, at 55 px/m."""
-    if any(x < 0.25 - 1.95 or x > 2.2 + 1.95 for (x, _), _ in samples):
+    if any(x < 0.25 - 1.95 or x > 2.2 + 1.95 for x, *_ in samples):
         return "X"
     last = samples[len(samples) * 3 // 4:]
-    if all(x < 0.25 for (x, _), _ in last) or all(x > 2.2 for (x, _), _ in last):
+    if all(x < 0.25 for x, *_ in last) or all(x > 2.2 for x, *_ in last):
         return "S"
-    if all(abs(x - true_x) * 55 <= 1 for (x, _), (true_x, _) in samples):
+    if all(abs(x - true_x) * 55 <= 1 for x, _, true_x, _ in samples):
         return "-"
-    mean, true_mean = (sum(v * v / 2 + 2 * x for x, v in cars) / len(last)
-                       for cars in zip(*last, strict=True))
+    mean, true_mean = (sum(car[at + 1]**2 / 2 + 2 * car[at] for car in last) / len(last)
+                       for at in (0, 2))
     gain = (mean - true_mean) / (2 * 1.95)
     return "G" if gain > 0.01 else "L" if gain < -0.01 else "P"

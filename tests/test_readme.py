@@ -104,7 +104,7 @@ def test_the_rates_and_errors_of_which_method_when_are_those_of_the_chart() -> N
 def test_the_exercise_s_fourth_motion_has_the_letters_of_exact(tmp_path: Path) -> None:
     text = (HERE / "airtrack.py").read_text()
     for old, new in (
-            ("# To add a motion, write", listing("def mean(") + "\n# To add a motion, write"),
+            ("MOTIONS = {", listing("def mean(") + "\nMOTIONS = {"),
             ('"exact": exact}', '"exact": exact, "mean": mean}')):
         assert text.count(old) == 1
         text = text.replace(old, new)

@@ -54,11 +54,21 @@ def test_a_deadline_missed_by_20_ms_or_a_frame_is_made_up_and_a_later_one_is_not
     assert clock.lengths_s()[20:] == pytest.approx([1 / fps] * 19, rel=0.02)
 
 
-def test_the_pause_before_the_first_frame(clock: Clock, play: Play) -> None:
-    for number, pause_s in ((0, 3), (1, 5), (3, 4), (5, 3), (99, 3)):
-        began_s = clock.now_s
-        assert f"The film begins in {pause_s} s" in play(f"{number} --frames 1")
-        assert clock.frames_s[0] - began_s == pytest.approx(pause_s, abs=0.01)
+def test_the_question_and_how_the_film_begins_stand_last_before_the_pause(
+        clock: Clock, play: Play, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(examples.Terminal, "take", lambda _: None)
+    monkeypatch.setattr(examples.Terminal, "give_back", lambda _: None)
+    for number in (0, 1, 3, 99):
+        question = (EXAMPLES.get(number) or examples.OWN_SCENE).look_for
+        for has_keyboard, pause_s, begins in (
+                (False, 3, "The film begins in 3 s. Ctrl-C begins it at once."),
+                (True, 10, "begins the film, p holds this text; it begins in 10 s.")):
+            monkeypatch.setattr(examples, "HAS_KEYBOARD", has_keyboard)
+            began_s = clock.now_s
+            out = play(f"{number} --frames 1").split("\n\n")[0]
+            told = " ".join(out.split()).replace("Enter or Ctrl-C begins the film", "begins the film")
+            assert told.endswith(f" {question} {begins}")
+            assert clock.frames_s[0] - began_s == pytest.approx(pause_s, abs=0.01)
 
 
 def test_each_line_goes_out_at_once_and_does_not_wait_in_a_buffer(
@@ -293,10 +303,10 @@ def test_the_keys_are_told_and_the_next_example_is_named_where_there_are_any(
     out = " ".join(play("3 --frames 2").split())
     assert ("No window for the keys: no." in out) is bool(why_shut)
     assert (f"Keys, {where}: p or Ctrl-S pauses, s steps one frame" in out) is bool(where)
-    assert ("p to hold this text, Enter to begin" in out) is bool(where)
+    assert ("Enter or Ctrl-C begins the film, p holds this text" in out) is bool(where)
     assert out.endswith("Next: python airtrack.py 4" if where else EXAMPLES[3].seen)
-    assert (f"{EXAMPLES[19].seen} Next: python airtrack.py chart" in " ".join(
-        play("19 --frames 2").split())) is bool(where)
+    assert (f"{EXAMPLES[20].seen} Next: python airtrack.py chart" in " ".join(
+        play("20 --frames 2").split())) is bool(where)
     for last in ("99", "-1", "3 --fast"):
         assert "Next" not in play(f"{last} --frames 2")
 

@@ -170,7 +170,7 @@ def test_window_and_terminal_serve_together_and_a_signal_ends_both(screen: Scree
     from test_terminal import Terminal, quick
 
     with Terminal(*quick(pause_s=1e6), DISPLAY=screen.name, SDL_VIDEODRIVER=None) as terminal:
-        terminal.until("Keys, in the little window and in this terminal: p ", "to begin.\r\n")
+        terminal.until("Keys, in the little window and in this terminal: p ", "+06 s.\r\n")
         terminal.press("p")
         terminal.until("paused")
         window = screen.window_of(terminal.program)
