@@ -82,14 +82,14 @@ MOTIONS = {"forward": forward, "backward": backward, "exact": exact}  # name a n
 #     forward  +2         2           3             4
 #     exact     0         0           1             2
 #     backward -2        -2          -1             0
-# Why? In units of g dt: (1) A car that leaves the wall at a speed of w is back after 2 w frames.
+# Why? Take speeds in units of g dt. (1) A car that leaves the wall at w is back after 2 w frames.
 # (2) Euler's points lie on a true flight. By forward its speed is v + 1/2 on the way up, v - 1/2 on
-# the way down, by backward the reverse. But v is what is turned round. So a car that falls at w
-# rises, by forward, at CR (w + 1/2) + 1/2: one frame more before the bounce, and one after it.
+# the way down, by backward the reverse. But v is what is turned round. So a car that arrives at w
+# leaves, by forward, at CR (w + 1/2) + 1/2: one frame more before the bounce, one more after it.
 # (3) A car is found s frames after its bounce, 0 to 1, on average 1/2. The pull has made it s too
 # fast. none loses that again on the way out. By surface a hop counts 2 w + s, until the car is
-# found, and the next 2 CR (w + s) + s: s before the bounce, s after. rebound also skips what the
-# pull takes after the bounce: it counts 2 w, and next 2 (CR (w + s) + s), so 2 s and 2 s.
+# found, and the next 2 CR (w + s) + s: s more before the bounce, s after. rebound also skips what
+# the pull takes after the bounce: it counts 2 w, and next 2 (CR (w + s) + s), so 2 s and 2 s.
 # At CR = 1 hops grow by k, up to the other wall, or shrink to rest (k < 0). At CR < 1 they end near
 # n = k/2 (1 + CR)/(1 - CR) frames, at any frame rate (example 20), or at rest (k < 0; rebound with
 # k = 0: by luck). By none the car is caught first. Luck is s. In even frames at CR = 1, v changes

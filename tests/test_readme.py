@@ -8,6 +8,7 @@ import shutil
 import subprocess
 import sys
 from contextlib import redirect_stdout
+from dataclasses import fields
 from pathlib import Path
 
 import pytest
@@ -52,10 +53,13 @@ def test_the_one_pager_is_a_page_and_shows_what_the_program_shows(
     assert [line[:126] for line in lines] == [line[:126] for line in shown]
 
 
-def test_the_film_as_text_is_the_program_s(capsys: Capture) -> None:
+def test_the_film_as_it_is_met_is_the_program_s(capsys: Capture) -> None:
     words, = re.findall(r"`python airtrack.py (16 --fast [^`]*)`", README)
     assert listing("*  .     |").splitlines() == [
         line.rstrip() for line in film(capsys, *words.split()).lines]
+    quoted = [quote.replace("\n> ", " ") for quote in re.findall(
+        r"^> (.*?)$(?!\n>)", README, re.MULTILINE | re.DOTALL)]
+    assert quoted == [EXAMPLES[16].look_for, EXAMPLES[16].seen]
 
 
 def test_the_lines_of_python_print_what_it_says() -> None:
@@ -66,32 +70,59 @@ def test_the_lines_of_python_print_what_it_says() -> None:
 
 def test_the_map_and_the_chart_s_errors_are_those_of_the_program() -> None:
     assert listing("X  out") in printed("stability", "10")
-    figures = [re.findall("[0-9.]+e[+-][0-9]+", text) for text in (
-        listing("FPS  error m"), printed("chart", "10"))]
-    assert len(figures[0]) == 45
-    assert figures[0] == figures[1]
+    shown, whole = (
+        re.sub("  +[0-9.]+(?= |$)", "", text, flags=re.MULTILINE).splitlines()  # without the times
+        for text in (listing("FPS  error m"), printed("chart", "10")))
+    assert len(shown) == 9
+    assert [line for line in whole if line in shown] == shown
 
 
 def test_the_examples_are_those_of_the_program() -> None:
-    rows = re.findall(r"^\| ([0-9]+) \| (.*) \|$", README, re.MULTILINE)
-    assert rows == [(str(number), example.title) for number, example in EXAMPLES.items()]
+    rows = re.findall(r"^\| ([0-9]+) \| (.*) \| (.*) \| (.*) \| (.*) \|$", README, re.MULTILINE)
+    scenes = {number: Scene(**example.settings) for number, example in EXAMPLES.items()}
+    assert rows == [
+        (str(number), EXAMPLES[number].title, f"{scene.motion} + {scene.correction}",
+         f"{scene.fps_target:.3g}", f"{scene.CR:g}") for number, scene in scenes.items()]
+
+
+def test_the_settings_have_the_units_and_defaults_of_the_program() -> None:
+    rows = re.findall(r"^\| `(\w+)` \| .* \| (.*) ?\| (\S+) \|$", README, re.MULTILINE)
+    settings = {field.name: field for field in fields(Scene)}
+    assert len(rows) == 12
+    for name, unit, default in rows:
+        assert settings[name].metadata["unit"] == unit.strip().replace("\u00b2", "^2")
+        assert str(settings[name].default) == default
 
 
 def test_the_hops_are_counted_in_the_table_and_in_the_exercise() -> None:
-    table = re.findall(r"^\| (\w+): \S+ \| (\d.*) \| (\d.*) \| (\d.*) \|$", README, re.MULTILINE)
-    assert [motion for motion, *_ in table] == ["forward", "exact", "backward"]
-    told = [(19, motion, correction, cell) for motion, *cells in table
-            for correction, cell in zip(("none", "surface", "rebound"), cells, strict=True)]
-    answers = re.findall(": ([0-9 ]+) \u2026 lines", README)
-    told += [(13, "backward", correction, answer) for correction, answer in zip(
-        ("surface", "none"), answers, strict=True)]
+    cell = r"\*\*\S+\*\*: (\d.*)"
+    table = re.findall(rf"^\| (\w+): \S+ \| {cell} \| {cell} \| {cell} \|$", README, re.MULTILINE)
+    told = [(19, 1.0, motion, correction, text) for motion, *cells in table
+            for correction, text in zip(("none", "surface", "rebound"), cells, strict=True)]
+    assert len(told) == 9
+    answer, = re.findall(r"film:\s+([0-9 ]+) \u2026 lines", README)
+    for number, CR, motion, correction, text in (*told, (20, 0.6, "forward", "surface", answer)):
+        lines = [int(word) for word in re.findall("[0-9]+", text.partition(" \u2026")[0])]
+        assert len(lines) >= 3
+        scene = Scene(**EXAMPLES[number].settings | {
+            "motion": motion, "correction": correction, "CR": CR})
+        assert lines_between_bounces(scene, 200)[:len(lines)] == lines
     w_mps = math.sqrt(0.098**2 + 2 * 2 * (0.84 - 0.25))
     assert f"{2 * w_mps / (2 * 0.1):.1f} lines" in README  # in truth
-    for number, motion, correction, cell in told:
-        lines = [int(text) for text in re.findall("[0-9]+", cell.partition(" \u2026")[0])]
-        assert len(lines) >= 3
-        scene = Scene(**EXAMPLES[number].settings | {"motion": motion, "correction": correction})
-        assert lines_between_bounces(scene, 200)[:len(lines)] == lines
+
+
+def test_luck_and_the_exercises_end_as_it_says(capsys: Capture) -> None:
+    at_rest = "the car is at rest against a wall"
+    assert lines_between_bounces(Scene(**EXAMPLES[8].settings | {"correction": "surface"}),
+                                 2000)[-20:] == [26] * 20
+    assert re.search(rf"t = 36\.\d\d s: {at_rest}", film(capsys, "9", "correction=surface").ending)
+    ending = film(capsys, "12", "CR=0.9", "correction=replay").ending
+    assert f"t = 24.99 s: {at_rest}" in ending
+    assert math.sqrt(1.75) * 1.9 / 0.1 == pytest.approx(25.1, abs=0.05)
+    for words, worst_m in (("16", 0.9), ("16 v_mps=0.03", 1.7)):
+        lines = film(capsys, *words.split(), "d", "--frames", "200").lines
+        errors = [abs(float(line.partition("err = ")[2])) for line in lines]
+        assert max(errors) == pytest.approx(worst_m, abs=0.05)
 
 
 def test_the_rates_and_errors_of_which_method_when_are_those_of_the_chart() -> None:
