@@ -70,41 +70,41 @@ MOTIONS = {"forward": forward, "backward": backward, "exact": exact}  # name a n
 # ==== 2. Colliding: the stickiness corrections ==================================================
 #
 # The move ended beyond a wall. Left there, the car may stick. A correction takes the x and v that
-# the move ended with, the wall, a and CR, and returns better ones. After the bounce, a part of the
-# frame is left: none and surface ignore it, rebound flies on without the pull, rewind under the
-# pull, and replay settles further bounces as well. Below, overlap is how far x is beyond the wall,
-# off the wall is back towards the track, and g is a pull into the wall.
+# the move ended with, the wall, a and CR, and returns better ones. A part of the frame is left
+# after the bounce: none and surface ignore it, rebound flies on without the pull, rewind under the
+# pull, and replay settles further bounces. Below, overlap is how far x is beyond the wall, off the
+# wall is back towards the track, and g is a pull into the wall.
 #
-# The law of the hops explains chart and map. Off the wall to which the car is pulled, each hop
-# should last CR times as long as the one before. Counted in frames, from one collision to the
-# next, it lasts hop' = CR (hop + k/2) + k/2, with k = row + column:
-#                      none 0    surface +1    rebound +2
-#     forward  +2         2           3             4
-#     exact     0         0           1             2
-#     backward -2        -2          -1             0
+# The law of the hops explains chart and stability map. Off the wall to which the car is pulled,
+# each hop should last CR times as long as the one before. By these methods, in frames from one
+# collision to the next, a hop of more than a few is followed by one of
+#     hop' = CR (hop + k/2) + k/2     none 0    surface +1    rebound +2
+#     with k =         forward  +2      2          3             4
+#                      exact     0      0          1             2
+#                      backward -2     -2         -1             0
 # Why? Take speeds in units of g dt. (1) A car that leaves the wall at w is back after 2 w frames.
-# (2) Euler's points lie on a true flight. By forward its speed is v + 1/2 on the way up, v - 1/2 on
-# the way down, by backward the reverse. But v is what is turned round. So a car that arrives at w
-# leaves, by forward, at CR (w + 1/2) + 1/2: one frame more before the bounce, one more after it.
-# (3) A car is found s frames after its bounce, 0 to 1, on average 1/2. The pull has made it s too
-# fast. none loses that again on the way out. By surface a hop counts 2 w + s, until the car is
-# found, and the next 2 CR (w + s) + s: s more before the bounce, s after. rebound also skips what
-# the pull takes after the bounce: it counts 2 w, and next 2 (CR (w + s) + s), so 2 s and 2 s.
-# At CR = 1 hops grow by k, up to the other wall, or shrink to rest (k < 0). At CR < 1 they end near
-# n = k/2 (1 + CR)/(1 - CR) frames, at any frame rate (example 20), or at rest (k < 0; rebound with
-# k = 0: by luck). By none the car is caught first. Luck is s. In even frames at CR = 1, v changes
-# by whole g dt and its sign only: the start deals s. surface obeys in each hop even so, rebound
-# on average. After rest on a frame's edge s is 1, and surface gains 2 (8 correction=surface).
+# (2) Euler's points lie on a true flight, only v is off: by forward the true speed is v + 1/2 on
+# the way up, v - 1/2 on the way down, by backward the reverse. A bounce turns v round: by forward
+# the car comes at w and leaves at CR (w + 1/2) + 1/2, so 2 w becomes CR (2 w + 1) + 1. (3) A car is
+# found s frames after its bounce, on average 1/2, and so s too fast. none loses that again on the
+# way out. By surface it leaves at CR (w + s), and a hop counts until it is found: 2 w + s becomes
+# 2 CR (w + s) + s, that is CR (hop + s) + s. rebound also skips what the pull takes in s after the
+# bounce: 2 w becomes 2 CR (w + s) + 2 s, that is CR (hop + 2 s) + 2 s.
+# Where to? At CR = 1 hops grow by k up to the other wall, or shrink to rest. At CR < 1 they end
+# near n = k/2 (1 + CR)/(1 - CR) frames (surface: at n to 1.9 n), at any frame rate (example 20), or
+# at rest (k < 0); by none, a bounce catches the car with a chance of 1 - CR. s is luck. At CR = 1
+# and one dt, v changes by whole g dt and its sign: the start fixes s. surface obeys in each hop,
+# rebound on average. But after a start at rest v is whole and s is 1: surface gains 2.
 
 def none(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Reverse v, but leave the car beyond the wall: a trap.
 
-    A frame later it may be beyond still: slowed by CR < 1, by a pull into the wall (backward) or
-    off it (forward). It is caught: v is reversed again, into the wall, and so on. At CR < 1 the
-    swings die down, until each frame begins at CR g dt/(1 + CR) off the wall and ends at
-    g dt/(1 + CR) into it. forward moves by the first: the car creeps out, and hops again. backward
-    moves by the second: it sinks by g dt^2/(1 + CR) a frame (example 3). exact, by their mean,
-    sinks too; at CR = 1 it plays each hop back. (A pull off the wall turns all this round.)
+    A frame later it may be beyond still: slowed by CR < 1; by backward, under a pull into the wall;
+    by forward, under one off it. It is caught: v is reversed again, into the wall, and so on. At
+    CR < 1 the swings die down, until each frame begins at a speed of CR g dt/(1 + CR) off the wall
+    and ends at g dt/(1 + CR) into it. forward moves by the first: the car creeps out, and hops
+    again. backward moves by the second: it sinks by g dt^2/(1 + CR) a frame (example 3). exact, by
+    their mean, sinks too; at CR = 1 it plays each hop back.
     """
     return x_m, -CR * v_mps
 
@@ -124,8 +124,8 @@ def arrival(d_m: float, u_mps: float, g_mps2: float) -> tuple[float, float]:
     """How long to a wall d_m ahead, and how fast there: t_s, w_mps. u and g are towards it."""
     # The speed w at the wall, from energy: w^2 = u^2 + 2 g d. (max: for round-off.)
     w_mps = math.sqrt(max(0.0, u_mps * u_mps + 2 * g_mps2 * d_m))
-    # The time t, from the mean velocity, d = (u + w)/2 t, or from w = u + g t: whichever only adds,
-    # as the difference of two nearly equal numbers is mostly round-off.
+    # The time t, from the mean velocity, d = (u + w)/2 t, or from w = u + g t: whichever subtracts
+    # no nearly equal numbers, as their difference is mostly round-off.
     return (2 * d_m / (u_mps + w_mps) if u_mps > 0 else (w_mps - u_mps) / g_mps2), w_mps
 
 def rewind(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
@@ -139,7 +139,7 @@ def rewind(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) ->
     side = math.copysign(1, x_m - wall_m)  # 1 beyond the right wall, -1 beyond the left one
     t_s, w_mps = arrival(abs(x_m - wall_m), side * v_mps, -side * a_mps2)
     x_m, v_mps = exact(wall_m, -side * CR * w_mps, a_mps2, t_s)
-    return side * min(side * x_m, side * wall_m), v_mps  # at a second bounce, leave it on the wall
+    return (min if side > 0 else max)(x_m, wall_m), v_mps  # at a second bounce: on the wall
 
 CORRECTIONS = {"none": none, "surface": surface, "rebound": rebound, "rewind": rewind,
                "replay": None}  # replay does not correct the move: it replaces it, in step
@@ -202,7 +202,7 @@ def step(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> tuple[float, fl
         # A move that ends on the track can have been beyond a wall only if v has changed its sign.
         if is_beyond or v_mps * free_mps < 0:
             x_m, v_mps = replay(scene, x_m, v_mps, dt_s)
-            return x_m, v_mps, free_m if is_beyond or v_mps != free_mps else None
+            return x_m, v_mps, free_m if is_beyond or v_mps != free_mps else None  # a bounce?
     elif is_beyond:
         return *correction(free_m, free_mps, on_track_m, scene.a_mps2, scene.CR), free_m
     return free_m, free_mps, None

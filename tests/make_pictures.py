@@ -1,6 +1,6 @@
-"""Makes the README's moving pictures from the program's own output: python tests/make_pictures.py
+"""Makes the README's moving picture from the program's own output: python tests/make_pictures.py
 
-Each is a terminal in which the film scrolls, as an animated GIF in .github/. Needs matplotlib (of
+It is a terminal in which example 10 scrolls, as an animated GIF in .github/. Needs matplotlib (of
 the test extra), for its Pillow and its monospaced font.
 """
 
@@ -16,7 +16,7 @@ sys.path.insert(0, str(HERE))
 
 from airtrack import INKS  # noqa: E402
 
-SIZE = ["m_to_px=36", "width_px=88"]  # what a README's width has room for
+COMMAND = "python airtrack.py 10 d m_to_px=36 width_px=88"  # what a README's width has room for
 FRAMES, ROWS, LINE_PX, LETTER_PX, EDGE_PX = 80, 18, 15, 7, 8
 PAPER, GREY = (24, 24, 27), (190, 190, 196)
 SHADES = {31: (248, 113, 113), 32: (74, 222, 128), 33: (250, 204, 21)}  # of a dark terminal
@@ -24,21 +24,21 @@ INK = {mark: SHADES[ink] for marks, ink in INKS.items() for mark in marks if mar
 FONT = ImageFont.truetype(findfont("DejaVu Sans Mono"), 12)
 
 
-def film(number: int) -> list[str]:
-    """The frames of an example, with details."""
-    words = [str(number), "d", *SIZE, "--fast", "--frames", str(FRAMES)]
-    out = subprocess.run([sys.executable, str(HERE / "airtrack.py"), *words], text=True, check=True,
+def film() -> list[str]:
+    """Its frames, with details."""
+    words = [*COMMAND.split(), "--fast", "--frames", str(FRAMES)]
+    out = subprocess.run([sys.executable, *words[1:]], text=True, check=True, cwd=HERE,
                          capture_output=True).stdout
     return [line for line in out.splitlines() if "FPS = " in line]
 
 
-def screen(command: str, lines: list[str], columns: int) -> Image.Image:
+def screen(lines: list[str], columns: int) -> Image.Image:
     """The terminal when the last of the lines has just been printed."""
     size = columns * LETTER_PX + 2 * EDGE_PX, ROWS * LINE_PX + 2 * EDGE_PX
     picture = Image.new("RGB", size, PAPER)
     draw = ImageDraw.Draw(picture)
     draw.fontmode = "1"  # no shades between ink and paper: few colours, and each frame the same
-    for row, line in enumerate([f"$ {command}", "", *lines][-ROWS:]):
+    for row, line in enumerate([f"$ {COMMAND}", "", *lines][-ROWS:]):
         track = line.find("x =")  # marks have their colours on the track alone
         for column, letter in enumerate(line):
             colour = INK.get(letter, GREY) if column < track else GREY
@@ -47,15 +47,13 @@ def screen(command: str, lines: list[str], columns: int) -> Image.Image:
 
 
 def main() -> None:
-    for number, name in ((10, "example-10"), (16, "example-16")):
-        lines, command = film(number), " ".join(["python airtrack.py", str(number), "d", *SIZE])
-        columns = max(map(len, lines))
-        screens = [screen(command, lines[:count], columns) for count in range(1, FRAMES + 1)]
-        frames = [picture.quantize(8) for picture in screens]  # more than there are inks
-        file = HERE / ".github" / f"{name}.gif"
-        frames[0].save(file, save_all=True, append_images=frames[1:], loop=0,
-                       duration=[100] * (FRAMES - 1) + [2000], optimize=False)
-        print(f"{file.relative_to(HERE)}: {FRAMES} frames, {file.stat().st_size // 1000} kB")
+    lines = film()
+    columns = max(map(len, lines))
+    frames = [screen(lines[:count], columns).quantize(8) for count in range(1, FRAMES + 1)]
+    file = HERE / ".github" / "example-10.gif"
+    frames[0].save(file, save_all=True, append_images=frames[1:], loop=0,
+                   duration=[100] * (FRAMES - 1) + [2000], optimize=False)
+    print(f"{file.relative_to(HERE)}: {FRAMES} frames, {file.stat().st_size // 1000} kB")
 
 
 if __name__ == "__main__":

@@ -208,28 +208,7 @@ def test_rewind_is_right_for_one_bounce_whose_move_ends_beyond_the_wall_and_wron
         assert side * v_mps == pytest.approx(s_mps + g_mps2 * rest_s)  # never turned round
 
 
-# 6. The order of the Euler methods. In free flight for T their velocity is right, and their
-#    position is off by the sum of the steps' a dt^2/2: by -a T dt/2 (forward), +a T dt/2
-#    (backward). Half the step, half the error.
-
-@pytest.mark.parametrize(("motion", "sign"), [("forward", -1), ("backward", 1)])
-@given(v_mps=speeds, a_mps2=pulls.filter(lambda a: abs(a) > 0.01), steps=st.integers(1, 200))
-def test_half_the_step_is_half_the_error(
-        motion: str, sign: int, v_mps: float, a_mps2: float, steps: int) -> None:
-    scene = Scene(motion=motion, a_mps2=a_mps2, **WIDE)
-
-    def error_m(dt_s: float, count: int) -> float:
-        x_m, t_s, now_mps = 0.0, dt_s * count, v_mps
-        for _ in range(count):
-            x_m, now_mps, _ = step(scene, x_m, now_mps, dt_s)
-        return x_m - (v_mps * t_s + a_mps2 * t_s**2 / 2)
-
-    whole_m, half_m = error_m(2.0 / steps, steps), error_m(1.0 / steps, 2 * steps)
-    assert whole_m == pytest.approx(sign * a_mps2 * 2.0 * (2.0 / steps) / 2, rel=1e-6, abs=1e-10)
-    assert half_m == pytest.approx(whole_m / 2, rel=1e-6, abs=1e-10)
-
-
-# 7. At CR < 1 backward + surface comes to rest, from any start; exact + surface often hops on.
+# 6. At CR < 1 backward + surface comes to rest, from any start; exact + surface often hops on.
 
 def test_backward_with_surface_always_comes_to_rest() -> None:
     rng, rests = random.Random(1), {"backward": 0, "exact": 0}
