@@ -69,11 +69,11 @@ MOTIONS = {"forward": forward, "backward": backward, "exact": exact}  # name a n
 
 # ==== 2. Colliding: the stickiness corrections ==================================================
 #
-# The move ended beyond a wall. Left there, the car may stick. A correction takes the x and v that
-# the move ended with, the wall, a and CR, and returns better ones. A part of the frame is left
-# after the bounce: none and surface ignore it, rebound flies on without the pull, rewind under the
-# pull, and replay settles further bounces. Below, overlap is how far x is beyond the wall, off the
-# wall is back towards the track, and g is a pull into the wall.
+# When a move ends beyond a wall, the car may stick there. A correction takes the x and v of the
+# move's end, the wall, a and CR, and returns better ones. What is left of the frame after the
+# bounce, none and surface ignore; rebound flies on without the pull, rewind under it, and replay
+# settles further bounces. Overlap is how far x is beyond the wall, off the wall is back towards the
+# track, and g is a pull into the wall.
 #
 # The law of the hops explains chart and stability map. Off the wall to which the car is pulled,
 # each hop should last CR times as long as the one before. By these methods, in frames from one
@@ -83,33 +83,34 @@ MOTIONS = {"forward": forward, "backward": backward, "exact": exact}  # name a n
 #                      exact     0      0          1             2
 #                      backward -2     -2         -1             0
 # Why? Take speeds in units of g dt. (1) A car that leaves the wall at w is back after 2 w frames.
-# (2) Euler's points lie on a true flight, only v is off: by forward the true speed is v + 1/2 on
-# the way up, v - 1/2 on the way down, by backward the reverse. A bounce turns v round: by forward
-# the car comes at w and leaves at CR (w + 1/2) + 1/2, so 2 w becomes CR (2 w + 1) + 1. (3) A car is
-# found s frames after its bounce, on average 1/2, and so s too fast. none loses that again on the
-# way out. By surface it leaves at CR (w + s), and a hop counts until it is found: 2 w + s becomes
-# 2 CR (w + s) + s, that is CR (hop + s) + s. rebound also skips what the pull takes in s after the
-# bounce: 2 w becomes 2 CR (w + s) + 2 s, that is CR (hop + 2 s) + 2 s.
-# Where to? At CR = 1 hops grow by k up to the other wall, or shrink to rest. At CR < 1 they end
-# near n = k/2 (1 + CR)/(1 - CR) frames (surface: at n to 1.9 n), at any frame rate (example 20), or
-# at rest (k < 0); by none, a bounce catches the car with a chance of 1 - CR. s is luck. At CR = 1
-# and one dt, v changes by whole g dt and its sign: the start fixes s. surface obeys in each hop,
-# rebound on average. But after a start at rest v is whole and s is 1: surface gains 2.
+# (2) Euler's points lie on a true flight; only v is off. By forward the true speed is v + 1/2 on
+#     the way up, v - 1/2 on the way down; by backward the reverse. A bounce turns v round. So by
+#     forward the car comes at w, leaves at CR (w + 1/2) + 1/2, and 2 w becomes CR (2 w + 1) + 1.
+# (3) A car is found s frames after its bounce, on average 1/2, and is s too fast by then.
+#     none: it loses s again on its way out, so nothing is gained.
+#     surface: hops end when it is found. 2 w + s becomes 2 CR (w + s) + s = CR (hop + s) + s.
+#     rebound also skips the pull for s after the bounce, and its hops begin and end s late:
+#     2 w becomes 2 (CR (w + s) + s) = CR (hop + 2 s) + 2 s.
+# At CR = 1 hops grow by k up to the other wall, stay, or shrink to rest. At CR < 1 they end near
+# n = k/2 (1 + CR)/(1 - CR) frames at any frame rate (example 20; surface: up to 1.9 n), or at rest
+# (k < 0). With none it may be caught first. s is luck. At CR = 1 and one dt, v changes by whole
+# g dt and its sign: the start fixes s, 1 after rest. surface obeys in each hop, rebound on average.
 
 def none(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Reverse v, but leave the car beyond the wall: a trap.
 
-    A frame later it may be beyond still: slowed by CR < 1; by backward, under a pull into the wall;
-    by forward, under one off it. It is caught: v is reversed again, into the wall, and so on. At
+    A frame later it may be beyond still: slowed by CR < 1 (a chance of about 1 - CR a bounce); by
+    backward, under a pull into the wall; by forward, under one off it. Then v is reversed again,
+    into the wall, and so on: it is caught. (exact at CR = 1 never is: it plays each hop back.) At
     CR < 1 the swings die down, until each frame begins at a speed of CR g dt/(1 + CR) off the wall
-    and ends at g dt/(1 + CR) into it. forward moves by the first: the car creeps out, and hops
-    again. backward moves by the second: it sinks by g dt^2/(1 + CR) a frame (example 3). exact, by
-    their mean, sinks too; at CR = 1 it plays each hop back.
+    and ends at g dt/(1 + CR) into it. forward moves by the first: the car creeps out and hops on.
+    backward moves by the second: it sinks by g dt^2/(1 + CR) a frame (example 3), and exact, by
+    their mean, sinks too.
     """
     return x_m, -CR * v_mps
 
 def surface(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
-    """Put the car on the wall, so that it cannot sink in. It leaves the wall up to dt late."""
+    """Put the car on the wall, so that it cannot sink in. (At s = 1 its hops gain as rebound's.)"""
     return wall_m, -CR * v_mps
 
 def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
@@ -534,7 +535,7 @@ VERDICTS = {  # from the worst to the best
     "S": "stuck: beyond the same wall all through the last 5 s",
     "W": "win or lose: some cuts gain energy, others lose it",
     "G": "gain: in the last 5 s over 1 % more energy than the true car, on average",
-    "L": "loss: over 1 % less (of v^2/2 at the start plus |a| times the track's length)",
+    "L": "loss: over 1 % less. (100 %: v^2/2 at the start plus |a| times the track.)",
     "P": "energy within 1 %, but over a drawn pixel off; at CR < 1 it may hop still",
     "-": "within a drawn pixel of the truth at every sample",
 }
@@ -666,7 +667,7 @@ def tell_of_walls(scene: Scene) -> None:
         say(f"The picture ends before a wall: m_to_px={enough:g} would show both.")
 
 def film(scene: Scene, number: int, title: str, options: dict[str, str]) -> int:
-    """Print what to look for, leave time to read it, run, and print what was to be seen."""
+    """Print what to look for, leave time to guess, run, and print what was to be seen."""
     example = EXAMPLES.get(number, OWN_SCENE)
     details = "d" in options or example.details
     max_frames = value_of(int, options.get("--frames", "50000"))
