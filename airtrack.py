@@ -214,9 +214,8 @@ def replay(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> State:
     """Replace the move: follow the exact motion from the frame's start, from wall to wall.
 
     Right for a frame of any length, with several bounces (example 15) or infinitely many. Think of
-    a ball in a room: the pull is gravity. The wall that it pulls to is the floor (without a pull,
-    the left one), the other the ceiling. h is the height. The loop ends: trips to the ceiling take
-    time, and a ball too slow for it hops.
+    a ball in a room: gravity pulls it to the floor (without a pull, the left wall); h is its
+    height. The loop ends: trips to the ceiling take time, and a ball too slow for it hops.
 
     A ball that would pass the ceiling by under GRAZE_M misses it: there, an error of 1e-16 in h is
     one of 1e-8 in v. Each miss shifts the car by up to 4 sqrt(room GRAZE_M), by default 4e-5 m.

@@ -134,8 +134,7 @@ EXAMPLES = {
         "Infinitely many, and all before t = 11.91 s, the Zeno point. Rewind settles one bounce a "
         "frame. So the car hops on, too low to see, until the film ends in frame 130. Yet rewind "
         "is all that this scene needs: it is up to 4 mm off in this film, less than a quarter of a "
-        "column. Replay follows them all: python airtrack.py 12 d correction=replay is at rest in "
-        "frame 122."),
+        "column. With correction=replay it is at rest in frame 122."),
     13: Example("Forward Euler beside the truth", {
         "x_m": 0.25, "v_mps": 2.48, "a_mps2": -2.0, "CR": 1.0, "motion": "forward",
         "fps_target": 10.0, "show_exact_mark": True},
@@ -161,9 +160,9 @@ EXAMPLES = {
     16: Example("Example 8 beside the truth", COARSE | {"show_exact_mark": True},
         "The o is the true car. When does the * leave it, and how far apart do they get? With d "
         "you see the error. Give it 20 s, then end it with x.",
-        "They are 2 cm apart in frame 2, and up to 0.9 m within 20 s. In flight, backward Euler "
-        "moves the * at the velocity of the frame's end; and the rebound does not know when in the "
-        "frame the bounce was."),
+        "At once: they are 1 cm apart in frame 1, 2 cm in frame 2, and up to 0.9 m within 20 s. In "
+        "flight, backward Euler moves the * at the velocity of the frame's end; and the rebound "
+        "does not know when in the frame the bounce was."),
     17: Example("Exact motion with the rebound", COARSE | {
         "motion": "exact", "show_exact_mark": True},
         "Now the motion is exact, but the correction is still the rebound. When does the * leave "
@@ -181,8 +180,8 @@ EXAMPLES = {
         "In frame 3 the o has bounced off the right wall, the * turned without a bounce. In frame "
         "4 they are about 0.4 m apart. The move of frame 3 goes 1 cm beyond the wall and ends back "
         "on the track, so no collision is found: a missed event. Any solver that looks for a "
-        "change of sign over a step may miss one, scipy's solve_ivp too. With correction=replay "
-        "the * stays on the o."),
+        "change of sign over a step may miss one, scipy's too. With correction=replay the * stays "
+        "on the o."),
     19: Example("Elastic hops, counted", {
         "x_m": 0.84, "v_mps": 0.098, "a_mps2": -2.0, "CR": 1.0, "correction": "surface",
         "fps_target": 10.0, "show_exact_mark": True},
