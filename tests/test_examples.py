@@ -55,13 +55,14 @@ def test_example_10_at_frames_13_and_14(capsys: Capture) -> None:
     assert details(fourteen) == (0.45, 2.49)
 
 
-@pytest.mark.parametrize(("number", "frames", "t_s", "x_m"), [
-    (1, 251, 8.37, 0.25), (4, 1880, 6.27, 0.25), (5, 236, 7.87, 2.20), (6, 236, 7.87, 2.20),
-    (12, 130, 12.96, 0.25), (19, 134, 13.4, 0.25)])
+@pytest.mark.parametrize(("words", "frames", "t_s", "x_m"), [
+    ("1", 251, 8.37, 0.25), ("4", 1880, 6.27, 0.25), ("5", 236, 7.87, 2.20),
+    ("6", 236, 7.87, 2.20), ("12", 130, 12.96, 0.25), ("12 correction=replay", 122, 12.19, 0.25),
+    ("19", 134, 13.4, 0.25)])
 def test_these_come_to_rest_in_the_frame_that_their_text_says(
-        number: int, frames: int, t_s: float, x_m: float, capsys: Capture) -> None:
-    says(number, str(frames))
-    _, lines, ending = film(capsys, str(number), "d", "--frames", "9" * 20)
+        words: str, frames: int, t_s: float, x_m: float, capsys: Capture) -> None:
+    says(int(words.split()[0]), str(frames))
+    _, lines, ending = film(capsys, *words.split(), "d", "--frames", "9" * 20)
     assert len(lines) == frames
     assert details(lines[-1])[0] == x_m
     assert ending == (f"Stopped after {frames} frames, t = {t_s:.2f} s: "
@@ -230,14 +231,6 @@ def test_12_rests_from_its_Zeno_point_on() -> None:
     assert 0.0035 < off_m < 0.0045 < 1 / 55 / 4
 
 
-def test_12_by_rewind_hops_on_where_replay_is_at_rest(capsys: Capture) -> None:
-    says(12, "frame 130", "frame 122")
-    resting, hopping = film(capsys, "12", "d", "correction=replay"), film(capsys, "12", "d")
-    assert (len(resting.lines), len(hopping.lines)) == (122, 130)
-    assert details(resting.lines[-1]) == (0.25, 0.0)
-    assert all(details(line)[1] != 0 for line in hopping.lines[121:])
-
-
 Beside = list[tuple[float, float, float | None]]  # x, the true x and mark_m, frame by frame
 
 
@@ -349,15 +342,3 @@ def test_15_creeps_a_tenth_of_a_metre_a_frame(capsys: Capture) -> None:
     assert all(0.25 <= x_m <= 2.2 for x_m in xs)
     assert sum(abs(b - a) == pytest.approx(0.1) for a, b in pairwise(xs)) > 550
     assert film(capsys, "15", "--frames", "600").ending.endswith("that is the frame limit.")
-
-
-def test_the_exact_mark_is_where_kinematics_has_the_car(capsys: Capture) -> None:
-    for number, top_m, top_s in ((13, 0.25 + 2.48**2 / 4, 1.24), (16, 2.0, 0.0), (17, 2.0, 0.0)):
-        for frame, line in enumerate(film(capsys, str(number), "d", "--frames", "26").lines, 1):
-            # The truth of an elastic car: x = top - t^2 about each of its highest points
-            since_top_s = math.remainder(frame / 10 - top_s, 2 * math.sqrt(top_m - 0.25))
-            true_m = top_m - since_top_s**2
-            x_m, err_m = details(line)[0], float(line.split("err = ")[1])
-            assert x_m - err_m == pytest.approx(true_m, abs=0.006)
-            if "o" in line[:135]:
-                assert line.index("o") == round(true_m * 55)

@@ -169,13 +169,10 @@ def test_the_law_foretells_from_which_rate_on_example_12_gains_no_energy(method:
 
 
 # 5. Rewind. A car at a distance d from a wall, at u towards it, under an acceleration g towards it,
-#    is there after t1 at s, with s^2 = u^2 + 2 g d, and leaves it at CR s. Right to round-off is
-#    rewind where the frame holds this one bounce and its move ends beyond the wall. That is so in
-#    the time r after t1 that is shorter than 2 CR s/g, when a car that is pulled to the wall
-#    (g > 0) is back for a second bounce, and shorter than 2 s/|g|, when a move that is pulled off
-#    the wall (g < 0) is back on the track. Then the car is CR s r - g r^2/2 off the wall. Later
-#    rewind puts the car on the wall (g > 0), or has found no collision at all: g < 0,
-#    u^2 > 2 |g| d and u dt - |g| dt^2/2 < d.
+#    is there after t1 at s, with s^2 = u^2 + 2 g d, and leaves it at CR s. Until a time r later it
+#    is CR s r - g r^2/2 off the wall, and rewind is right: r < 2 CR s/g, when a car that is pulled
+#    to the wall is back for a second bounce; r < 2 s/|g|, when a move that is pulled off it is back
+#    on the track. Later rewind puts the car on the wall, or has found no collision at all.
 
 @given(side=sides, d_m=st.floats(0.01, 1), s_mps=st.floats(0.1, 20), CR=st.floats(0.05, 1),
        g_mps2=st.floats(-50, -0.1) | st.just(0.0) | st.floats(0.1, 50),
@@ -208,18 +205,15 @@ def test_rewind_is_right_for_one_bounce_whose_move_ends_beyond_the_wall_and_wron
         assert side * v_mps == pytest.approx(s_mps + g_mps2 * rest_s)  # never turned round
 
 
-# 6. At CR < 1 backward + surface comes to rest, from any start; exact + surface often hops on.
+# 6. At CR < 1 backward + surface comes to rest from any start, whichever wall it is pulled to.
 
 def test_backward_with_surface_always_comes_to_rest() -> None:
-    rng, rests = random.Random(1), {"backward": 0, "exact": 0}
+    rng = random.Random(1)
     for _ in range(200):
-        start = {"x_m": rng.uniform(0.3, 2.1), "v_mps": rng.uniform(-3, 3),
-                 "a_mps2": -rng.uniform(0.5, 10), "CR": rng.uniform(0.2, 0.95)}
-        for motion in rests:
-            scene = Scene(motion=motion, correction="surface", **start)  # type: ignore[arg-type]
-            x_m, v_mps, fps, last_m = scene.x_m, scene.v_mps, rng.uniform(5, 60), 0.0
-            for frame in range(3000):
-                x_m, v_mps, _ = step(scene, x_m, v_mps, 1 / fps)
-                last_m = max(last_m, x_m - 0.25) if frame >= 2900 else 0.0
-            rests[motion] += last_m < 1e-3
-    assert rests["backward"] == 200 > rests["exact"] + 50
+        scene = Scene(correction="surface", x_m=rng.uniform(0.3, 2.1), v_mps=rng.uniform(-3, 3),
+                      a_mps2=rng.choice([-1, 1]) * rng.uniform(0.5, 10), CR=rng.uniform(0.2, 0.95))
+        dt_s, wall_m = 1 / rng.uniform(5, 60), 2.2 if scene.a_mps2 > 0 else 0.25
+        x_m, v_mps = scene.x_m, scene.v_mps
+        for frame in range(3000):
+            x_m, v_mps, _ = step(scene, x_m, v_mps, dt_s)
+            assert frame < 2900 or abs(x_m - wall_m) < 1e-3

@@ -55,7 +55,7 @@ class Terminal(contextlib.AbstractContextManager["Terminal"]):
         self.all, self.seen = "", 0  # all that came, and how much of it was waited for
         self.program = subprocess.Popen(
             command, stdin=self.theirs, stdout=self.theirs, stderr=self.theirs, cwd=HERE,
-            env=environment(PS1="$ ", **changes), start_new_session=True, preexec_fn=sit_down)
+            env=environment(**changes), start_new_session=True, preexec_fn=sit_down)
 
     def __exit__(self, *_: object) -> None:
         with contextlib.suppress(ProcessLookupError):
