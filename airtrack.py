@@ -88,13 +88,13 @@ MOTIONS = {"forward": forward, "backward": backward, "exact": exact}  # name a n
 #     forward the car comes at w, leaves at CR (w + 1/2) + 1/2, and 2 w becomes CR (2 w + 1) + 1.
 # (3) A car is found s frames after its bounce, on average 1/2, and is s too fast by then.
 #     none: it loses s again on its way out, so nothing is gained.
-#     surface: hops end when it is found. 2 w + s becomes 2 CR (w + s) + s = CR (hop + s) + s.
-#     rebound also skips the pull for s after the bounce, and its hops begin and end s late:
+#     surface: a hop ends when it is found. 2 w + s becomes 2 CR (w + s) + s' = CR (hop + s) + s'.
+#     rebound also skips the pull for s after the bounce, and its hops begin as late as they end:
 #     2 w becomes 2 (CR (w + s) + s) = CR (hop + 2 s) + 2 s.
-# At CR = 1 hops grow by k up to the other wall, stay, or shrink to rest. At CR < 1 they end near
-# n = k/2 (1 + CR)/(1 - CR) frames at any frame rate (example 20; surface: up to 1.9 n), or at rest
-# (k < 0). With none it may be caught first. s is luck. At CR = 1 and one dt, v changes by whole
-# g dt and its sign: the start fixes s, 1 after rest. surface obeys in each hop, rebound on average.
+# At CR = 1 hops grow (k > 0) up to the other wall, stay, or shrink to rest. At CR < 1 they end near
+# n = k/2 (1 + CR)/(1 - CR) frames (surface: to 1.9 n) at any rate (example 20), or at rest (k < 0;
+# 0 by luck); none may catch it first. Luck is s: at CR = 1 and one dt, v keeps its fraction of g
+# dt, so the start deals s. surface obeys each time: s + s' = 1 (from rest 2), rebound on average.
 
 def none(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Reverse v, but leave the car beyond the wall: a trap.
