@@ -452,9 +452,9 @@ def table(scene: Scene) -> Points:
         row = f"{fps:4}"
         for letter, (motion, correction) in SERIES.items():
             method = replace(scene, motion=motion, correction=correction)
-            error_m = max(abs(x_m - true_m) for cut in range(CUTS)
-                          for x_m, _, true_m, _ in simulate(method, fps, cut))
-            us = cost_us(method, fps)
+            errors_m = (abs(x_m - true_m) for cut in range(CUTS)
+                        for x_m, _, true_m, _ in simulate(method, fps, cut))
+            error_m, us = max(errors_m), cost_us(method, fps)
             points[letter].append((error_m, us))
             row += f"{error_m:9.1e}{two_digits(us):>6}"
         print(row, flush=True)
@@ -549,7 +549,8 @@ def verdict(scene: Scene, fps: int, cut: int) -> str:
         return "X"
     if min(beyond_m[late:]) > 0 or max(beyond_m[late:]) < 0:
         return "S"
-    if max(abs(x_m - true_m) for x_m, _, true_m, _ in states) <= 1 / scene.m_to_px:
+    error_m = max(abs(x_m - true_m) for x_m, _, true_m, _ in states)
+    if error_m <= 1 / scene.m_to_px:
         return "-"
     gain = fmean((v_mps**2 - true_mps**2) / 2 - scene.a_mps2 * (x_m - true_m)
                  for x_m, v_mps, true_m, true_mps in states[late:])  # in E
@@ -571,8 +572,10 @@ def stability(scene: Scene, heading: str) -> None:
         for correction in CORRECTIONS:
             if motion == "exact" or correction not in EXACT_ONLY:
                 method = replace(scene, motion=motion, correction=correction)
-                row = "".join(f"{cell({verdict(method, fps, cut) for cut in range(CUTS)}):>6}"
-                              for fps in MAP_FPS)
+                row = ""
+                for fps in MAP_FPS:
+                    found = {verdict(method, fps, cut) for cut in range(CUTS)}
+                    row += f"{cell(found):>6}"
                 print(f"{f'{motion} + {correction}':20}{inked(row)}", flush=True)
     for letter, meaning in VERDICTS.items():
         print(f"{inked(letter)}  {meaning}")
