@@ -346,7 +346,7 @@ def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None
     recent_m = deque[float](maxlen=max(10, round(scene.fps_target / 3)))  # 1/3 s, at least 10
     frame, t_s, why = 0, 0.0, "that is the frame limit"
     beats = paced(scene, keys) if keys else planned(scene)
-    for frame, (length_s, fps) in zip(range(1, max_frames + 1), beats, strict=False):
+    for frame, (length_s, fps) in zip(range(1, max_frames + 1), beats):
         # Move and settle.
         dt_s = length_s if scene.use_observed_dt else 1 / scene.fps_target
         t_s += dt_s
@@ -377,9 +377,8 @@ INKS = {  # marks of film, chart and map: the terminal's number for their colour
     "bPp": 34,  # blue
     "aSs": 35,  # violet
 }
-COLOURED = {
-    ord(mark): f"\033[{ink}m{mark}\033[0m" for marks, ink in INKS.items() for mark in marks
-}
+COLOURED = {ord(mark): f"\033[{ink}m{mark}\033[0m"
+            for marks, ink in INKS.items() for mark in marks}
 
 def inked(line: str) -> str:
     """The line with its marks in colours, or as it is where nobody wants colours."""
@@ -580,8 +579,8 @@ def stability(scene: Scene, heading: str) -> None:
     for letter, meaning in VERDICTS.items():
         print(f"{inked(letter)}  {meaning}")
     say("A capital: all ten cuts deserve the letter; small: only some do, the others are better. "
-        "Samples: every 0.1 s, or every frame, where it is longer. At CR < 1, G is a car that hops "
-        "on or, at 1 or 2 FPS, one whose v on the wall is large.")
+        "Samples: every 0.1 s, or every frame, where it is longer. At CR < 1, a G car hops on or, "
+        "at 1 or 2 FPS, lies at the wall with a large v.")
 
 
 # ==== 10. Checking a scene ======================================================================
@@ -604,8 +603,8 @@ def check(scene: Scene) -> None:
         if isinstance(row.default, (bool, str)):
             is_good = value in allowed
         else:
-            is_good = (isinstance(value, (int, type(row.default)))
-                       and allowed[0] <= value <= allowed[1])
+            low, high = allowed
+            is_good = isinstance(value, (int, type(row.default))) and low <= value <= high
         if not is_good:
             raise BadInput(f"{row.name} must be {allowed_text(row)}, not {value!r}")
     left_m, right_m = scene.left_edge_m, scene.right_edge_m
@@ -630,12 +629,14 @@ OPTIONS = {"d": "the film", "--fast": "the film", "--frames": "the film", "--sav
 def in_words(scene: Scene) -> str:
     """How the car starts, in words."""
     ways = ("to the left", "to the right")
-    speed, pull = "at rest", "not pulled: nothing moves it until v_mps or a_mps2 is given"
+    beyond = "" if scene.x_m == scene.to_track(scene.x_m) else ", beyond a wall"
+    speed, pull = "at rest", "not pulled"
     if scene.v_mps:
-        speed, pull = f"moving {ways[scene.v_mps > 0]} at {abs(scene.v_mps):g} m/s", "not pulled"
+        speed = f"moving {ways[scene.v_mps > 0]} at {abs(scene.v_mps):g} m/s"
     if scene.a_mps2:
         pull = f"pulled {ways[scene.a_mps2 > 0]} at {abs(scene.a_mps2):g} m/s^2"
-    beyond = "" if scene.x_m == scene.to_track(scene.x_m) else ", beyond a wall"
+    elif not scene.v_mps and not beyond:
+        pull = "not pulled: nothing moves it until v_mps or a_mps2 is given"
     return (f"The car starts at {scene.x_m:g} m{beyond}, {speed}, {pull}; walls at "
             f"{scene.left_edge_m:g} and {scene.right_edge_m:g} m; CR={scene.CR:g}.")
 
@@ -784,15 +785,13 @@ def main(argv: list[str] | None = None) -> int:
         return status
     except KeyboardInterrupt:
         return 130
-    except BadInput as fault:
-        why: object = fault
-    except OSError as fault:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # more output would fail
+    except (BadInput, OSError) as fault:
+        if isinstance(fault, OSError):
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # more output would fail
         if isinstance(fault, BrokenPipeError):  # the reader has seen enough, as in | head
             return 0
-        why = fault
-    print(f"airtrack.py: error: {why}", file=sys.stderr)
-    return 2
+        print(f"airtrack.py: error: {fault}", file=sys.stderr)
+        return 2
 
 
 if __name__ == "__main__":

@@ -55,8 +55,9 @@ EXAMPLES = {
         details=True),
     1: Example("A first look", {
         "x_m": 2.0, "a_mps2": -1.5, "CR": 0.7, "show_collision_mark": False},
-        "Keep your eyes on the bottom row, or cover the rows above it with a sheet of paper: there "
-        "the car moves. The rows above are its past. Before each bounce, say where it will turn.",
+        "Keep your eyes on the bottom row, or cover all above it with a sheet of paper: there the "
+        "car (*) moves between its walls (|). Above is its past. Before each bounce, say where it "
+        "will turn.",
         "It was pulled to the left, and kept 70 % of its speed at each bounce. So it came back "
         "about half as far each time (0.7^2 = 0.49): 0.87 m, 0.46 m, 0.21 m from the wall. After "
         "251 frames, a third of a second at rest, the run stops by itself."),
@@ -73,10 +74,10 @@ EXAMPLES = {
         "the left wall? Give it ten seconds, then end the film with x.",
         "In frame 46 (t = 1.53 s) the car is beyond the left wall. Its velocity is reversed, but "
         "60 % of the speed is too little to get out in one frame. So the next frame reverses it "
-        "again, now into the wall, and so on. The swings die down. From frame 60 on each frame "
-        "begins at 0.02 m/s out of the wall (see d). The pull turns that into 0.03 m/s into it, of "
-        "which 60 %, reversed, are 0.02 again. So the car sinks by 1 mm a frame. After about nine "
-        "seconds it is out of the picture: <"),
+        "again, now into the wall, and so on. These swings die down. From frame 60 on the car "
+        "begins each frame moving out at 0.02 m/s (see d). The pull turns that into 0.03 m/s into "
+        "the wall, of which 60 %, reversed, are 0.02 again. So the car sinks by 1 mm a frame. "
+        "After about nine seconds it is out of the picture: <"),
     4: Example("A high frame rate", {
         "x_m": 0.2, "v_mps": 10.0, "a_mps2": -10.0, "CR": 0.8, "fps_target": 300.0,
         "show_collision_mark": False},
@@ -90,12 +91,12 @@ EXAMPLES = {
         "The car is pulled to the right. A 0 is where the move alone put it, beyond the wall. "
         "Where is the * in the same line? Does every collision show a 0?",
         "The * is on the track, at 70 % of the distance from the wall to the 0. Not each of the 19 "
-        "collisions shows a 0: many are so near the wall that it hides them. With fps_target=10 "
-        "each of the first five does (press x to end that film). The car is at rest after 236 "
-        "frames."),
+        "collisions shows a 0: many are so near the wall that it hides them. Add fps_target=10, "
+        "and each of the first five does (end that film with x). It is at rest after 236 frames."),
     6: Example("Example 5 zoomed out", {
         "x_m": 2.0, "v_mps": 3.0, "a_mps2": 2.0, "CR": 0.7, "m_to_px": 30.0},
-        "The drawing is smaller than in example 5. Does the motion change? Count the frames.",
+        "The drawing is smaller than in example 5. Does the motion? Compare how many frames it "
+        "takes.",
         "Only the drawing changes: it is 30/55 as wide. With d the figures are those of example 5, "
         "and the run ends after 236 frames again."),
     7: Example("Elastic, small steps", ELASTIC | {"fps_target": 240.0},
@@ -108,22 +109,20 @@ EXAMPLES = {
         "four turns, then end the film with x.",
         "After the first bounce it turns at 1.88 m, 12 cm short of the start mark, after the "
         "second at the mark, and so on. Backward Euler costs 1 cm of height a frame, 26 cm in fall "
-        "and rise. The rebound gives back twice what the car was beyond the wall: 14 cm, then 38 "
-        "cm. It starts at rest, so its speeds are whole multiples of a dt, and the same two "
-        "bounces come by turns."),
+        "and rise. The rebound gives back twice as much as the car was beyond the wall: 14 cm, "
+        "then 38 cm. It starts at rest, so its speeds are whole multiples of 0.2 m/s, and the same "
+        "two bounces come by turns."),
     9: Example("Elastic, large and irregular steps", COARSE | IRREGULAR,
         "Example 8 with irregular frames: each is up to a quarter longer or shorter (jitter), and "
-        "moves the car for as long as the frame before took. Where does it turn? Press x after 30 "
-        "s.",
+        "its time step is the length of the frame before. Where does it turn? Press x after 30 s.",
         "The errors of the bounces are irregular too. So the car turns elsewhere each time: first "
-        "at 1.81 m, and after about half a minute beyond the start mark as well. It wanders. With "
-        "--fast, where no clock is observed, the next turns are at 1.68, 1.59 and 1.51 m."),
+        "at 1.81 m, and after about half a minute beyond the start mark as well. It wanders."),
     10: Example("The exact solution", EXACT,
         "Only 10 FPS, but exact formulas. Where does the car turn? To see the first bounce, in "
         "frame 14, press p at once, then s fourteen times. End the film with x.",
         "The car moves by the formulas of kinematics, and each bounce is worked out at its own "
-        "moment. So it comes back to the start mark, the dot at 2 m, every time. In example 8, by "
-        "Euler's method and the rebound, it does not."),
+        "moment. (The 0 in frame 14 is where the move alone had put it.) So it comes back to the "
+        "start mark, the dot at 2 m, every time. In example 8 it does not."),
     11: Example("The exact solution, irregular steps", EXACT | IRREGULAR,
         "Example 10 with irregular frames. Where does the car turn? End the film with x.",
         "At the start mark, all the same. The exact solution does not depend on how the time is "
@@ -131,10 +130,10 @@ EXAMPLES = {
     12: Example("The exact solution, losing energy", EXACT | IRREGULAR | {"CR": 0.8},
         "Example 11, but the car keeps 80 % of its speed at each bounce, and the bounces come "
         "faster and faster. How many are there before it is at rest?",
-        "Infinitely many, and all before t = 11.91 s, the Zeno point. Rewind settles one bounce a "
-        "frame. So the car hops on, too low to see, until the film ends in frame 130. Yet rewind "
-        "is all that this scene needs: it is up to 4 mm off in this film, less than a quarter of a "
-        "column. With correction=replay it is at rest in frame 122."),
+        "Infinitely many, and all before t = 11.91 s: the Zeno point. Rewind settles one bounce a "
+        "frame. So the car hops on, so low that only a 0 may show it, until the film ends in frame "
+        "130. Yet rewind is all that this scene needs: it is up to 4 mm off in this film, less "
+        "than a quarter of a column. With correction=replay it is at rest in frame 122."),
     13: Example("Forward Euler beside the truth", {
         "x_m": 0.25, "v_mps": 2.48, "a_mps2": -2.0, "CR": 1.0, "motion": "forward",
         "fps_target": 10.0, "show_exact_mark": True},
@@ -170,8 +169,8 @@ EXAMPLES = {
         "The * stays on the o until the first bounce, in frame 14, and then leaves it: by up to "
         "1.8 m within 20 s. What fails is the rebound. It lifts the car off the wall without "
         "slowing it down. So the car gains energy at each bounce off the left wall, to which it is "
-        "pulled, and gives some back at the right one. Motion and collision add up (example 19): 0 "
-        "and +2 lines a hop. With correction=rewind the * stays on the o."),
+        "pulled, and gives some back at the right one. Motion and collision add up, here to 0 and "
+        "+2 lines a hop (see example 19). With correction=rewind the * stays on the o."),
     18: Example("The exact solution at 4 FPS", {
         "x_m": 0.65, "v_mps": 5.0, "a_mps2": -8.0, "CR": 1.0, "motion": "exact",
         "correction": "rewind", "fps_target": 4.0, "show_exact_mark": True},
@@ -186,26 +185,26 @@ EXAMPLES = {
         "x_m": 0.84, "v_mps": 0.098, "a_mps2": -2.0, "CR": 1.0, "correction": "surface",
         "fps_target": 10.0, "show_exact_mark": True},
         "Nothing is lost in a bounce: the o bounces on for ever. And the *? Count its hops, in "
-        "lines from bounce to bounce off the left wall. (With d: there v turns positive.)",
+        "lines from bounce to bounce off the left wall. With d: there v turns positive.",
         "The hops of the * last 15, 14, 13 ... lines, each one fewer than the one before, down to "
-        "2 and 1, which are too low to see. In frame 134 it is at rest. In each hop backward Euler "
-        "makes -2 lines, surface +1. So do forward +2, exact 0, none 0, rebound +2. Foretell the "
-        "other eight, as python airtrack.py 19 d motion=exact, and count, up to the right wall."),
+        "2 and 1, which are too low to see. In frame 134 it is at rest. To each hop backward Euler "
+        "adds -2 lines, surface +1. Forward adds +2, exact 0, none 0, rebound +2. Foretell the "
+        "other eight pairs, then count them up to the right wall: add motion=exact, for one."),
     20: Example("Hops that lose speed, counted", {
         "x_m": 0.66, "v_mps": 0.75, "a_mps2": -2.0, "CR": 0.8, "motion": "exact",
         "fps_target": 10.0, "show_exact_mark": True},
         "Each bounce takes 20 % of the speed. Which comes to rest, the o or the *, and when? Count "
-        "the hops of the *, in lines. (With d: at a bounce v turns positive.) End with x.",
+        "the hops of the *, in lines. With d: at a bounce v turns positive. End with x.",
         "The o lies still from t = 7.05 s on, its Zeno point. The hops of the * last 14, 12, 10, 9 "
         "lines, and then 9 for ever, 20 cm high. Exact motion adds 0 lines, the rebound 2: one "
-        "before the bounce, which keeps 80 % of it, and one after. So 9 is followed by 0.8 (9 + 1) "
-        "+ 1 = 9. At a higher rate the hops end at about as many lines, so they are lower. With "
+        "before the bounce, which keeps 80 %, and one after it. So 9 is followed by 0.8 (9 + 1) + "
+        "1 = 9. At a higher rate the hops end at about as many lines, so they are lower. With "
         "motion=backward correction=surface, -2 + 1, the * comes to rest."),
 }
 OWN_SCENE = Example("Your own scene", {},
-    "Where does the car turn, and does it come to rest? Under a pull and at CR < 1, backward + "
-    "surface always does, exact + replay when the true car does, the default, backward + rebound, "
-    "by luck. All settings: python airtrack.py -h")
+    "Where does the car turn? Does it come to rest? Under a pull, at CR < 1, backward + surface "
+    "always does, exact + replay if the true car does, backward + rebound (default) by luck. More: "
+    "python airtrack.py -h")
 
 
 # ==== The terminal's keys =======================================================================

@@ -8,13 +8,12 @@ import shutil
 import subprocess
 import sys
 from contextlib import redirect_stdout
-from dataclasses import fields
 from pathlib import Path
 
 import pytest
 
 import airtrack
-from airtrack import Scene
+from airtrack import SETTINGS, Scene
 from examples import EXAMPLES
 from figures import errors_m, printed
 from films import HERE, environment, film, lines_between_bounces
@@ -87,11 +86,10 @@ def test_the_examples_are_those_of_the_program() -> None:
 
 def test_the_settings_have_the_units_and_defaults_of_the_program() -> None:
     rows = re.findall(r"^\| `(\w+)` \| .* \| (.*) ?\| (\S+) \|$", README, re.MULTILINE)
-    settings = {field.name: field for field in fields(Scene)}
     assert len(rows) == 12
     for name, unit, default in rows:
-        assert settings[name].metadata["unit"] == unit.strip().replace("\u00b2", "^2")
-        assert str(settings[name].default) == default
+        assert SETTINGS[name].metadata["unit"] == unit.strip().replace("\u00b2", "^2")
+        assert str(SETTINGS[name].default) == default
 
 
 def test_the_hops_are_counted_in_the_table_and_in_the_exercise() -> None:

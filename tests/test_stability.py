@@ -125,8 +125,8 @@ def test_a_hop_is_followed_by_one_of_the_law_s_length(
 def test_at_CR_08_hops_end_at_the_length_that_repeats_itself_or_at_rest(
         motion: str, correction: str) -> None:
     n = 4.5 * (FLIGHT[motion] + COLLISION[correction])
-    ends = [sum(hops[-20:]) / 20
-            for hops in hops_from_random_starts(motion, correction, 0.8, 60, 3000)]
+    hops = hops_from_random_starts(motion, correction, 0.8, 60, 3000)
+    ends = [sum(lines[-20:]) / 20 for lines in hops]
     mean = sum(ends) / 60
     if n < 0 or (motion, correction) == ("exact", "none"):
         assert set(ends) == {1}  # it lies on the wall or, by none, sinks into it
