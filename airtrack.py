@@ -471,9 +471,9 @@ def picture(points: Points, pixel_m: float) -> None:
     marks = [(round(4 * math.log10(us)), error_px(error_m), letter)
              for letter, series in points.items() for error_m, us in series]
     limit_px = error_px(pixel_m)
-    say("To the right: largest error, sampled every 0.1 s. Down: processor time for a simulated "
-        "second, in us (microseconds). The best are in the upper left. Errors to the right of the "
-        "| are more than a drawn pixel: a film shows them.")
+    say("To the right: largest error of ten cuts, sampled every 0.1 s. Down: processor time for a "
+        "simulated second, in us (microseconds). The best are in the upper left. Errors to the "
+        "right of the | are more than a drawn pixel: a film shows them.")
     say("; ".join(f"{letter}: {' + '.join(method)}" for letter, method in SERIES.items())
         + "; +: several of them.")
     print(f"\n{'one drawn pixel |':>{limit_px + 11}}")
@@ -533,7 +533,7 @@ VERDICTS = {  # from the worst to the best
     "S": "stuck: beyond the same wall all through the last 5 s",
     "W": "win or lose: some cuts gain energy, others lose it",
     "G": "gain: in the last 5 s over 1 % more energy than the true car, on average",
-    "L": "loss: over 1 % less. (100 %: v^2/2 at the start plus |a| times the track.)",
+    "L": "loss: over 1 % less (100 %: v^2/2 at the start + |a| * the track's length)",
     "P": "energy within 1 %, but over a drawn pixel off; at CR < 1 it may hop still",
     "-": "within a drawn pixel of the truth at every sample",
 }

@@ -55,9 +55,8 @@ EXAMPLES = {
         details=True),
     1: Example("A first look", {
         "x_m": 2.0, "a_mps2": -1.5, "CR": 0.7, "show_collision_mark": False},
-        "Keep your eyes on the bottom row, or cover all above it with a sheet of paper: there the "
-        "car (*) moves between its walls (|). Above is its past. Before each bounce, say where it "
-        "will turn.",
+        "Watch the bottom row, or cover all above it with a sheet of paper: there the car (*) "
+        "moves between its walls (|). Before each bounce, say where it will turn.",
         "It was pulled to the left, and kept 70 % of its speed at each bounce. So it came back "
         "about half as far each time (0.7^2 = 0.49): 0.87 m, 0.46 m, 0.21 m from the wall. After "
         "251 frames, a third of a second at rest, the run stops by itself."),
@@ -70,14 +69,14 @@ EXAMPLES = {
     3: Example("No correction, losing speed", {
         "x_m": 2.0, "a_mps2": -1.5, "CR": 0.6, "correction": "none", "auto_off": False,
         "show_collision_mark": False},
-        "Now the car loses speed in a bounce, and it is pulled to the left. Does it come back from "
-        "the left wall? Give it ten seconds, then end the film with x.",
+        "Now it loses speed in a bounce, and it is pulled to the left. Does it come back from the "
+        "left wall? Give it ten seconds, then press x.",
         "In frame 46 (t = 1.53 s) the car is beyond the left wall. Its velocity is reversed, but "
         "60 % of the speed is too little to get out in one frame. So the next frame reverses it "
         "again, now into the wall, and so on. These swings die down. From frame 60 on the car "
-        "begins each frame moving out at 0.02 m/s (see d). The pull turns that into 0.03 m/s into "
-        "the wall, of which 60 %, reversed, are 0.02 again. So the car sinks by 1 mm a frame. "
-        "After about nine seconds it is out of the picture: <"),
+        "begins each frame at 0.02 m/s outwards (see d). The pull makes that 0.03 m/s inwards, of "
+        "which 60 %, reversed, are 0.02 again. So the car sinks by 1 mm a frame. After about nine "
+        "seconds it is out of the picture: <"),
     4: Example("A high frame rate", {
         "x_m": 0.2, "v_mps": 10.0, "a_mps2": -10.0, "CR": 0.8, "fps_target": 300.0,
         "show_collision_mark": False},
@@ -88,8 +87,8 @@ EXAMPLES = {
         "m/s. Each of the first two frames finds it there and takes 20 %: it leaves at 6.4 m/s."),
     5: Example("Where each collision was found", {
         "x_m": 2.0, "v_mps": 3.0, "a_mps2": 2.0, "CR": 0.7},
-        "The car is pulled to the right. A 0 is where the move alone put it, beyond the wall. "
-        "Where is the * in the same line? Does every collision show a 0?",
+        "A 0 is where the move alone put the car, beyond the wall. Where is the * in the same "
+        "line? Does every collision show a 0?",
         "The * is on the track, at 70 % of the distance from the wall to the 0. Not each of the 19 "
         "collisions shows a 0: many are so near the wall that it hides them. Add fps_target=10, "
         "and each of the first five does (end that film with x). It is at rest after 236 frames."),
@@ -110,16 +109,16 @@ EXAMPLES = {
         "After the first bounce it turns at 1.88 m, 12 cm short of the start mark, after the "
         "second at the mark, and so on. Backward Euler costs 1 cm of height a frame, 26 cm in fall "
         "and rise. The rebound gives back twice as much as the car was beyond the wall: 14 cm, "
-        "then 38 cm. It starts at rest, so its speeds are whole multiples of 0.2 m/s, and the same "
+        "then 38 cm. After a start at rest all speeds are whole multiples of 0.2 m/s, so the same "
         "two bounces come by turns."),
     9: Example("Elastic, large and irregular steps", COARSE | IRREGULAR,
-        "Example 8 with irregular frames: each is up to a quarter longer or shorter (jitter), and "
-        "its time step is the length of the frame before. Where does it turn? Press x after 30 s.",
+        "Example 8 with irregular frames: each is up to a quarter longer or shorter, and sets the "
+        "time step of the next. Where does it turn? Press x after 30 s.",
         "The errors of the bounces are irregular too. So the car turns elsewhere each time: first "
         "at 1.81 m, and after about half a minute beyond the start mark as well. It wanders."),
     10: Example("The exact solution", EXACT,
-        "Only 10 FPS, but exact formulas. Where does the car turn? To see the first bounce, in "
-        "frame 14, press p at once, then s fourteen times. End the film with x.",
+        "Only 10 FPS, but exact formulas. Where does the car turn? For the first bounce, frame 14, "
+        "press p at once, then s fourteen times. End it with x.",
         "The car moves by the formulas of kinematics, and each bounce is worked out at its own "
         "moment. (The 0 in frame 14 is where the move alone had put it.) So it comes back to the "
         "start mark, the dot at 2 m, every time. In example 8 it does not."),
@@ -131,21 +130,21 @@ EXAMPLES = {
         "Example 11, but the car keeps 80 % of its speed at each bounce, and the bounces come "
         "faster and faster. How many are there before it is at rest?",
         "Infinitely many, and all before t = 11.91 s: the Zeno point. Rewind settles one bounce a "
-        "frame. So the car hops on, so low that only a 0 may show it, until the film ends in frame "
-        "130. Yet rewind is all that this scene needs: it is up to 4 mm off in this film, less "
-        "than a quarter of a column. With correction=replay it is at rest in frame 122."),
+        "frame. So the car hops on, at last seen only by a 0, until the film ends in frame 130. "
+        "Yet rewind is all that this scene needs: it is up to 4 mm off in this film, less than a "
+        "quarter of a column. With correction=replay it is at rest in frame 122."),
     13: Example("Forward Euler beside the truth", {
         "x_m": 0.25, "v_mps": 2.48, "a_mps2": -2.0, "CR": 1.0, "motion": "forward",
         "fps_target": 10.0, "show_exact_mark": True},
-        "The * is moved by forward Euler, the o is the true car. In the first flight neither will "
-        "reach the right wall. Which climbs higher, o or *? See both turn, then press x.",
+        "The * is moved by forward Euler, the o is the true car. Which climbs higher, before "
+        "either meets a wall? See both turn, then press x.",
         "The * turned at 1.91 m, in frame 13, the o at 1.79 m, and neither had met a wall. Forward "
         "Euler moves the car at the velocity of the frame's start: too fast on the way up, too "
         "slow on the way down. Each step adds a^2 dt^2/2 = 0.02 m^2/s^2 to the energy v^2/2 - a x. "
         "With motion=exact the * stays with the o until they meet the wall, in frame 25."),
     14: Example("Four metres a frame", QUICK,
-        "The car moves 4 m a frame, on a track of 1.95 m. A < or a > says that it is out of the "
-        "picture. How far does it get? End the film with x.",
+        "The car moves 4 m a frame, on a track of 1.95 m. How far does it get? (< and >: out of "
+        "the picture.) End the film with x.",
         "The rebound puts it as far off the wall as it was beyond it: beyond the far wall, out to "
         "the left (<), out to the right (>), alternately, 4.1 m further every other frame. It "
         "still bounces off walls that it has left behind. In a minute it is 1.2 km away (see d)."),
@@ -157,15 +156,15 @@ EXAMPLES = {
         "where it was. So it seems to creep along the track, as wagon wheels in a film seem to "
         "turn slowly: the stroboscopic effect."),
     16: Example("Example 8 beside the truth", COARSE | {"show_exact_mark": True},
-        "The o is the true car. When does the * leave it, and how far apart do they get? With d "
-        "you see the error. Give it 20 s, then end it with x.",
+        "The o is the true car. When does the * leave it, and how far apart do they get? (d shows "
+        "the error.) Press x after 20 s.",
         "At once: they are 1 cm apart in frame 1, 2 cm in frame 2, and up to 0.9 m within 20 s. In "
         "flight, backward Euler moves the * at the velocity of the frame's end; and the rebound "
         "does not know when in the frame the bounce was."),
     17: Example("Exact motion with the rebound", COARSE | {
         "motion": "exact", "show_exact_mark": True},
-        "Now the motion is exact, but the correction is still the rebound. When does the * leave "
-        "the o? And does it gain energy or lose some? End the film with x.",
+        "Now the motion is exact, but the correction is the rebound. When does the * leave the o? "
+        "Does it gain energy or lose some? End it with x.",
         "The * stays on the o until the first bounce, in frame 14, and then leaves it: by up to "
         "1.8 m within 20 s. What fails is the rebound. It lifts the car off the wall without "
         "slowing it down. So the car gains energy at each bounce off the left wall, to which it is "
@@ -185,26 +184,25 @@ EXAMPLES = {
         "x_m": 0.84, "v_mps": 0.098, "a_mps2": -2.0, "CR": 1.0, "correction": "surface",
         "fps_target": 10.0, "show_exact_mark": True},
         "Nothing is lost in a bounce: the o bounces on for ever. And the *? Count its hops, in "
-        "lines from bounce to bounce off the left wall. With d: there v turns positive.",
+        "lines. (With d: at a bounce v turns positive.)",
         "The hops of the * last 15, 14, 13 ... lines, each one fewer than the one before, down to "
-        "2 and 1, which are too low to see. In frame 134 it is at rest. To each hop backward Euler "
-        "adds -2 lines, surface +1. Forward adds +2, exact 0, none 0, rebound +2. Foretell the "
-        "other eight pairs, then count them up to the right wall: add motion=exact, for one."),
+        "2 and 1, which are too low to see. In frame 134 it is at rest. In each hop backward Euler "
+        "counts -2 lines, surface +1; forward +2, exact 0, none 0, rebound +2. Foretell the sums "
+        "of the other eight pairs, then count, up to the right wall. For one, add motion=exact."),
     20: Example("Hops that lose speed, counted", {
         "x_m": 0.66, "v_mps": 0.75, "a_mps2": -2.0, "CR": 0.8, "motion": "exact",
         "fps_target": 10.0, "show_exact_mark": True},
-        "Each bounce takes 20 % of the speed. Which comes to rest, the o or the *, and when? Count "
-        "the hops of the *, in lines. With d: at a bounce v turns positive. End with x.",
-        "The o lies still from t = 7.05 s on, its Zeno point. The hops of the * last 14, 12, 10, 9 "
-        "lines, and then 9 for ever, 20 cm high. Exact motion adds 0 lines, the rebound 2: one "
-        "before the bounce, which keeps 80 %, and one after it. So 9 is followed by 0.8 (9 + 1) + "
-        "1 = 9. At a higher rate the hops end at about as many lines, so they are lower. With "
-        "motion=backward correction=surface, -2 + 1, the * comes to rest."),
+        "Each bounce takes 20 % of the speed. Which comes to rest, o or *, and when? Count the "
+        "hops of the * as in example 19. End with x.",
+        "The o lies still from t = 7.05 s on, its Zeno point, hidden by the wall. The hops of the "
+        "* last 14, 12, 10, 9 lines, and then 9 for ever, 20 cm high. Exact motion counts 0 lines. "
+        "The rebound counts 2, one before the bounce and one after it. As the bounce keeps 80 %, 9 "
+        "is followed by 0.8 (9 + 1) + 1 = 9. At a higher rate the hops end at about as many lines, "
+        "so they are lower. With motion=backward correction=surface, -2 + 1, the * comes to rest."),
 }
 OWN_SCENE = Example("Your own scene", {},
-    "Where does the car turn? Does it come to rest? Under a pull, at CR < 1, backward + surface "
-    "always does, exact + replay if the true car does, backward + rebound (default) by luck. More: "
-    "python airtrack.py -h")
+    "Where does it turn? Does it come to rest? Under a pull, at CR < 1, backward + surface always "
+    "does, exact + replay if the true car does, the default by luck. More: python airtrack.py -h")
 
 
 # ==== The terminal's keys =======================================================================

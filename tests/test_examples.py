@@ -311,7 +311,7 @@ def test_the_hops_of_19_and_20_are_counted_for_other_methods_too(
     settings = EXAMPLES[number].settings | {"motion": motion, "correction": correction}
     shifted = {"x_m": settings["x_m"] * (1 + of_x), "v_mps": settings["v_mps"] * (1 + of_v)}
     assert lines_between_bounces(Scene(**settings | shifted), 400)[:len(lines)] == lines
-    says(19, "15, 14, 13 ...", "2 and 1", "-2", "+1", "Forward adds +2", "rebound +2", "frame 134")
+    says(19, "15, 14, 13 ...", "2 and 1", "-2", "+1", "forward +2", "rebound +2", "frame 134")
     says(20, "14, 12, 10, 9", "0.8 (9 + 1) + 1 = 9", "80 %", "-2 + 1")
 
 
