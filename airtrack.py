@@ -305,7 +305,7 @@ def planned(scene: Scene) -> Iterator[tuple[float, float]]:
 def paced(scene: Scene, keys: Keys) -> Iterator[tuple[float, float]]:
     """Wait until each frame is due. Yield how long the last one took, and the rate in FPS.
 
-    After a pause or a stall, yield instead what was planned, so that the car does not leap. The
+    After a pause or a stall the length is the planned one, so that the car does not leap. The
     deadlines are absolute: a sleep of dt after each frame would add the time to compute and print.
     """
     began_s = deadline_s = time.perf_counter() - 1 / scene.fps_target  # so the first is due at once
