@@ -75,9 +75,9 @@ MOTIONS = {"forward": forward, "backward": backward, "exact": exact}  # name a n
 # settles further bounces. Overlap is how far x is beyond the wall, off the wall is back towards the
 # track, and g is a pull into the wall.
 #
-# The law of the hops explains chart and stability map. Off the wall to which the car is pulled,
-# each hop should last CR times as long as the one before. By these methods, in frames from one
-# collision to the next, a hop of more than a few is followed by one of
+# The law of the hops explains chart and stability map. From the wall that it is pulled to, the car
+# hops; each hop should last CR times as long as the one before. By these methods, in frames from
+# collision to collision, a hop of more than a few frames leads to one of
 #     hop' = CR (hop + k/2) + k/2     none 0    surface +1    rebound +2
 #     with k =         forward  +2      2          3             4
 #                      exact     0      0          1             2
@@ -91,10 +91,10 @@ MOTIONS = {"forward": forward, "backward": backward, "exact": exact}  # name a n
 #     surface: a hop ends when it is found. 2 w + s becomes 2 CR (w + s) + s' = CR (hop + s) + s'.
 #     rebound also skips the pull for s after the bounce, and its hops begin as late as they end:
 #     2 w becomes 2 (CR (w + s) + s) = CR (hop + 2 s) + 2 s.
-# At CR = 1 hops grow (k > 0) up to the other wall, stay, or shrink to rest. At CR < 1 they end near
-# n = k/2 (1 + CR)/(1 - CR) frames (surface: to 1.9 n) at any rate (example 20), or at rest (k < 0;
-# 0 by luck); none may catch it first. Luck is s: at CR = 1 and one dt, v keeps its fraction of g
-# dt, so the start deals s. surface obeys each time: s + s' = 1 (from rest 2), rebound on average.
+# At CR = 1 hops grow (k > 0) to the other wall, stay, or shrink to rest. At CR < 1 they end near
+# n = k/2 (1 + CR)/(1 - CR) frames at any FPS (example 20), or at rest (k < 0; if 0, by luck), if
+# none has not caught the car. Luck is s. At CR = 1 and one dt, v changes by whole g dt and its
+# sign: the start deals s. surface obeys each time (s + s' = 1; from rest 2), rebound on average.
 
 def none(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Reverse v, but leave the car beyond the wall: a trap.
@@ -110,7 +110,7 @@ def none(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> S
     return x_m, -CR * v_mps
 
 def surface(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
-    """Put the car on the wall, so that it cannot sink in. (At s = 1 its hops gain as rebound's.)"""
+    """Put the car on the wall, so that it cannot sink in. Hops end between its n and rebound's."""
     return wall_m, -CR * v_mps
 
 def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
@@ -578,7 +578,7 @@ def stability(scene: Scene, heading: str) -> None:
                 print(f"{f'{motion} + {correction}':20}{inked(row)}", flush=True)
     for letter, meaning in VERDICTS.items():
         print(f"{inked(letter)}  {meaning}")
-    say("A capital: all ten cuts deserve the letter; small: only some do, the others are better. "
+    say("A capital: all ten cuts deserve the letter; small: only some do, the others one below it. "
         "Samples: every 0.1 s, or every frame, where it is longer. At CR < 1, a G car hops on or, "
         "at 1 or 2 FPS, lies at the wall with a large v.")
 
