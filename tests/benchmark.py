@@ -41,16 +41,15 @@ def cost_s(scene: Scene) -> float:
 def frame() -> None:
     """A frame's step beside the rest of it, drawing and printing its line (into memory)."""
     ten = Scene(**EXAMPLES[10].settings)
-    steps_s = {" + ".join(method): cost_s(replace(ten, motion=method[0], correction=method[1]))
-               for method in SERIES.values()}
 
     def film() -> None:
         with redirect_stdout(io.StringIO()):
             run(ten, False, STEPS, None)
     line_s = least_s(film) / STEPS - cost_s(ten)
-    for method, step_s in steps_s.items():
-        print(f"example 10 by {method}: a step takes {step_s * 1e6:.2f} us, drawing its line "
-              f"{line_s / step_s:.0f} times as long")
+    for motion, correction in SERIES.values():
+        step_s = cost_s(replace(ten, motion=motion, correction=correction))
+        print(f"example 10 by {motion} + {correction}: a step takes {step_s * 1e6:.2f} us, drawing "
+              f"its line {line_s / step_s:.0f} times as long")
 
 
 def elsewhere() -> None:

@@ -34,6 +34,7 @@ WRONG = {  # a command line that is refused: what is said of it
     "10 motion=forward": "motion must be exact with correction=rewind, not forward: "
                          "choose motion=exact, or another correction",
     "12 x_m=0.2": "x_m must be from 0.25 to 2.2 with correction=rewind, not 0.2",
+    "15 x_m=2.21": "x_m must be from 0.25 to 2.2 with correction=replay, not 2.21",
     "3 d 4": "one EXAMPLE at a time, not both 3 and 4",
     "chart 3 stability": "one command at a time, not both chart and stability",
     "chart d": "d is for the film, not for chart",

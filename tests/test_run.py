@@ -2,6 +2,7 @@
 
 import io
 import re
+import signal
 from collections.abc import Callable
 from itertools import islice, pairwise
 
@@ -186,6 +187,15 @@ def test_keys_that_quit(key: str, why: str, clock: Clock, monkeypatch: pytest.Mo
     frames = len(clock.frames_s)
     assert frames in (10, 11)
     assert ending(out) == f"Stopped after {frames} frames, t = {frames / 10:.2f} s: {why}."
+
+
+def test_a_signal_acts_at_the_next_look_and_the_first_reason_to_end_wins() -> None:
+    keys = examples.Keys()
+    for number in (signal.SIGTERM, signal.SIGINT):
+        keys.note(number, None)
+        assert keys.why_quit == ""
+    keys.look()
+    assert (keys.why_quit, keys.status) == ("SIGTERM", 143)
 
 
 def test_x_is_answered_within_a_long_frame(clock: Clock, play: Play) -> None:

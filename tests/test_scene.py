@@ -45,16 +45,6 @@ def test_every_range(name: str, default: Any, allowed: str, good: list[Any],
             Scene(**{name: value})
 
 
-@pytest.mark.parametrize("correction", ["rewind", "replay"])
-def test_rewind_and_replay_need_the_exact_motion_and_a_start_on_the_track(correction: str) -> None:
-    for x_m in (0.25, 2.2):
-        Scene(motion="exact", correction=correction, x_m=x_m)
-    for motion, x_m, wrong in (
-            ("backward", 1, "motion"), ("exact", 0.249, "x_m"), ("exact", 2.201, "x_m")):
-        with pytest.raises(ValueError, match=f"^{wrong} must be .* with correction={correction}"):
-            Scene(motion=motion, correction=correction, x_m=x_m)
-
-
 def test_walls_are_at_least_a_centimetre_apart_round_off_aside() -> None:
     for left_m, right_m in ((0.05, 0.06), (2.2, 2.21), (-0.01, 0)):
         Scene(left_edge_m=left_m, right_edge_m=right_m)
