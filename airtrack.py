@@ -578,7 +578,7 @@ def stability(scene: Scene, heading: str) -> None:
                 print(f"{f'{motion} + {correction}':20}{inked(row)}", flush=True)
     for letter, meaning in VERDICTS.items():
         print(f"{inked(letter)}  {meaning}")
-    say("A capital: all ten cuts deserve the letter; small: only some do, the others one below it. "
+    say("A capital: all ten cuts deserve the letter; small: only some do, the others a better one. "
         "Samples: every 0.1 s, or every frame, where it is longer. At CR < 1, a G car hops on or, "
         "at 1 or 2 FPS, lies at the wall with a large v.")
 
