@@ -69,8 +69,8 @@ EXAMPLES = {
     3: Example("No correction, losing speed", {
         "x_m": 2.0, "a_mps2": -1.5, "CR": 0.6, "correction": "none", "auto_off": False,
         "show_collision_mark": False},
-        "Now it loses speed in a bounce, and it is pulled to the left. Does it come back from the "
-        "left wall? Give it ten seconds, then press x.",
+        "Now the car loses speed in a bounce, and it is pulled to the left. Does it come back from "
+        "the left wall? Give it ten seconds, then press x.",
         "In frame 46 (t = 1.53 s) the car is beyond the left wall. Its velocity is reversed, but "
         "60 % of the speed is too little to get out in one frame. So the next frame reverses it "
         "again, now into the wall, and so on. These swings die down. From frame 60 on the car "
