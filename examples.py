@@ -58,8 +58,8 @@ EXAMPLES = {
         "Watch the bottom row, or cover all above it with a sheet of paper: there the car (*) "
         "moves between its walls (|). Before each bounce, say where it will turn.",
         "It was pulled to the left, and kept 70 % of its speed at each bounce. So it came back "
-        "about half as far each time (0.7^2 = 0.49): 0.87 m, 0.46 m, 0.21 m from the wall. After "
-        "251 frames, a third of a second at rest, the run stops by itself."),
+        "about half as far each time (0.7^2 = 0.49): 0.87 m, 0.46 m, 0.21 m from the wall. When it "
+        "has been at rest for a third of a second, in frame 251, the film stops by itself."),
     2: Example("No correction", {
         "x_m": 1.65, "v_mps": 2.7, "CR": 1.0, "correction": "none", "show_collision_mark": False},
         "Nothing puts the car back on the track after a collision. How far does it go into the "
@@ -185,17 +185,17 @@ EXAMPLES = {
         "fps_target": 10.0, "show_exact_mark": True},
         "Nothing is lost in a bounce: the o bounces on for ever. And the *? Count its hops, in "
         "lines. (With d: at a bounce v turns positive.)",
-        "The hops of the * last 15, 14, 13 ... lines, each one fewer than the one before, down to "
+        "The hops of the * take 15, 14, 13 ... lines, each one fewer than the one before, down to "
         "2 and 1, which are too low to see. In frame 134 it is at rest. In each hop backward Euler "
-        "counts -2 lines, surface +1; forward +2, exact 0, none 0, rebound +2. Foretell the sums "
-        "of the other eight pairs, then count, up to the right wall. For one, add motion=exact."),
+        "counts -2 lines, surface +1; forward +2, exact 0, none 0, rebound +2. Foretell the other "
+        "eight sums, then count until the * meets the right wall: add motion=exact, for one."),
     20: Example("Hops that lose speed, counted", {
         "x_m": 0.66, "v_mps": 0.75, "a_mps2": -2.0, "CR": 0.8, "motion": "exact",
         "fps_target": 10.0, "show_exact_mark": True},
         "Each bounce takes 20 % of the speed. Which comes to rest, o or *, and when? Count the "
         "hops of the * as in example 19. End with x.",
         "The o lies still from t = 7.05 s on, its Zeno point, hidden by the wall. The hops of the "
-        "* last 14, 12, 10, 9 lines, and then 9 for ever, 20 cm high. Exact motion counts 0 lines. "
+        "* take 14, 12, 10, 9 lines, and then 9 for ever, 20 cm high. Exact motion counts 0 lines. "
         "The rebound counts 2, one before the bounce and one after it. As the bounce keeps 80 %, 9 "
         "is followed by 0.8 (9 + 1) + 1 = 9. At a higher rate the hops end at about as many lines, "
         "so they are lower. With motion=backward correction=surface, -2 + 1, the * comes to rest."),
