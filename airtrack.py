@@ -332,7 +332,7 @@ def is_at_rest(scene: Scene, v_mps: float, recent_m: deque[float]) -> bool:
     Its mean position in recent frames is within 1 mm of it, and its v is no more than the pull
     changes in their time. (By Euler's methods the v of a car that leans on a wall need not be 0.)
     """
-    mean_m = fmean(recent_m)
+    mean_m = sum(recent_m) / len(recent_m)
     is_left = scene.a_mps2 <= 0 and abs(mean_m - scene.left_edge_m) <= 0.001
     is_right = scene.a_mps2 >= 0 and abs(mean_m - scene.right_edge_m) <= 0.001
     is_held = abs(v_mps) <= abs(scene.a_mps2) * len(recent_m) / scene.fps_target
@@ -413,7 +413,7 @@ def simulate(scene: Scene, fps: int, cut: int) -> Iterator[tuple[float, ...]]:
     step: no error adds up.
     """
     truth = truth_of(scene)
-    shift_s = max(0, cut - 2 / 3) / 9 / fps
+    shift_s = max(0, cut - 2 / 3) / (CUTS - 1) / fps
     frames_a_sample = max(1, fps // 10)
     x_m, v_mps, _ = step(truth, truth.x_m, truth.v_mps, shift_s)
     for frame in range(frames_a_sample, SPAN_S * fps + 1, frames_a_sample):
@@ -588,23 +588,24 @@ def stability(scene: Scene, heading: str) -> None:
 class BadInput(ValueError):
     """One sentence on what a user asked for and cannot have."""
 
+NUMBERS = {int: "a whole number", float: "a number"}  # settings of other types are choices
+
 def allowed_text(row: Field[Any]) -> str:
     """What a setting may be, in words."""
-    allowed = row.metadata["allowed"]
-    if isinstance(row.default, (bool, str)):
-        return " or ".join(", ".join(map(str, allowed)).rsplit(", ", 1))
-    noun = "a whole number" if isinstance(row.default, int) else "a number"
-    return f"{noun} from {allowed[0]} to {allowed[1]} {row.metadata['unit']}".rstrip()
+    allowed, noun = row.metadata["allowed"], NUMBERS.get(type(row.default))
+    if noun:
+        return f"{noun} from {allowed[0]} to {allowed[1]} {row.metadata['unit']}".rstrip()
+    return " or ".join(", ".join(map(str, allowed)).rsplit(", ", 1))
 
 def check(scene: Scene) -> None:
     """Raise BadInput, naming setting, range and value, for a scene that is not allowed."""
     for row in fields(scene):
         value, allowed = getattr(scene, row.name), row.metadata["allowed"]
-        if isinstance(row.default, (bool, str)):
-            is_good = value in allowed
-        else:
+        if type(row.default) in NUMBERS:
             low, high = allowed
             is_good = isinstance(value, (int, type(row.default))) and low <= value <= high
+        else:
+            is_good = value in allowed
         if not is_good:
             raise BadInput(f"{row.name} must be {allowed_text(row)}, not {value!r}")
     left_m, right_m = scene.left_edge_m, scene.right_edge_m
@@ -763,9 +764,9 @@ def obey(words: list[str]) -> int:
     if command not in COMMANDS:
         title = f"Example {number}: {example.title}" if number in EXAMPLES else example.title
         return film(scene, number, title + changed, given)
-    on_track = replace(scene, x_m=scene.to_track(scene.x_m))
+    on_track = truth_of(scene)  # chart and map set the methods, and keep the start
     whose = f"Example {number}'s scene" if number in EXAMPLES else example.title
-    beyond = "" if on_track == scene else " Here all methods start on that wall."
+    beyond = "" if on_track.x_m == scene.x_m else " Here all methods start on that wall."
     heading = f"{whose}{changed}. {in_words(scene)}{beyond}"
     if command == "stability":
         stability(on_track, heading)

@@ -57,7 +57,6 @@ def test_a_deadline_missed_by_20_ms_or_a_frame_is_made_up_and_a_later_one_is_not
 def test_the_question_and_how_the_film_begins_stand_last_before_the_pause(
         clock: Clock, play: Play, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(examples.Terminal, "take", lambda _: None)
-    monkeypatch.setattr(examples.Terminal, "give_back", lambda _: None)
     for number in (0, 1, 3, 99):
         question = (EXAMPLES.get(number) or examples.OWN_SCENE).look_for
         for has_keyboard, pause_s, begins in (
