@@ -9,7 +9,8 @@ from typing import NamedTuple
 
 import pytest
 
-from airtrack import Scene, main, step
+from airtrack import Scene, main, step, truth_of
+from examples import EXAMPLES
 
 HERE = Path(__file__).resolve().parent.parent
 COMMAND = [sys.executable, str(HERE / "airtrack.py")]
@@ -59,3 +60,23 @@ def lines_between_bounces(scene: Scene, lines: int) -> list[int]:
         x_m, v_mps, mark_m = step(scene, x_m, v_mps, 1 / scene.fps_target)
         found += [line] if mark_m is not None else []
     return [b - a for a, b in pairwise(found)]
+
+
+Beside = list[tuple[float, float, float | None]]  # x, the true x and mark_m, frame by frame
+
+
+def beside_the_truth(number: int, frames: int, shift: float, **changes: object) -> Beside:
+    """An example, with its v (its x where v is 0) shifted by a part of it, and with changes."""
+    settings = EXAMPLES[number].settings
+    name = "v_mps" if settings.get("v_mps") else "x_m"
+    scene = Scene(**settings | changes | {name: settings[name] * (1 + shift)})
+    truth, (x_m, v_mps), found = truth_of(scene), (scene.x_m, scene.v_mps), []
+    for frame in range(1, frames + 1):
+        x_m, v_mps, mark_m = step(scene, x_m, v_mps, 1 / scene.fps_target)
+        true_m = step(truth, truth.x_m, truth.v_mps, frame / scene.fps_target)[0]
+        found.append((x_m, true_m, mark_m))
+    return found
+
+
+def apart_m(found: Beside) -> float:
+    return max(abs(x_m - true_m) for x_m, true_m, _ in found)

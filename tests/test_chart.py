@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from test_examples import apart_m, beside_the_truth
 
 import airtrack
 from airtrack import SERIES, Scene, cell, main, verdict
@@ -23,7 +22,7 @@ from figures import (
     printed,
     told_plainly,
 )
-from films import HERE, environment
+from films import HERE, apart_m, beside_the_truth, environment
 
 Capture = pytest.CaptureFixture[str]
 

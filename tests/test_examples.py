@@ -11,7 +11,7 @@ import pytest
 
 from airtrack import Scene, planned, render_track, step, truth_of
 from examples import EXAMPLES
-from films import details, film, lines_between_bounces
+from films import apart_m, beside_the_truth, details, film, lines_between_bounces
 
 Capture = pytest.CaptureFixture[str]
 
@@ -229,26 +229,6 @@ def test_12_rests_from_its_Zeno_point_on() -> None:
     off_m = max(abs(x_m - step(truth, 2.0, 0.0, t_s)[0])
                 for (x_m, _, _), t_s in zip(states(12, 130), moments_s, strict=False))
     assert 0.0035 < off_m < 0.0045 < 1 / 55 / 4
-
-
-Beside = list[tuple[float, float, float | None]]  # x, the true x and mark_m, frame by frame
-
-
-def beside_the_truth(number: int, frames: int, shift: float, **changes: object) -> Beside:
-    """An example, with its v (its x where v is 0) shifted by a part of it, and with changes."""
-    settings = EXAMPLES[number].settings
-    name = "v_mps" if settings.get("v_mps") else "x_m"
-    scene = Scene(**settings | changes | {name: settings[name] * (1 + shift)})
-    truth, (x_m, v_mps), found = truth_of(scene), (scene.x_m, scene.v_mps), []
-    for frame in range(1, frames + 1):
-        x_m, v_mps, mark_m = step(scene, x_m, v_mps, 1 / scene.fps_target)
-        true_m = step(truth, truth.x_m, truth.v_mps, frame / scene.fps_target)[0]
-        found.append((x_m, true_m, mark_m))
-    return found
-
-
-def apart_m(found: Beside) -> float:
-    return max(abs(x_m - true_m) for x_m, true_m, _ in found)
 
 
 @pytest.mark.parametrize("shift", [-1e-3, 0, 1e-3])
