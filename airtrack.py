@@ -37,7 +37,6 @@ from typing import Any
 from examples import EXAMPLES, OWN_SCENE, Keys, taken_keys
 
 # ==== 1. Moving: where is the car dt_s later, if there are no walls? ============================
-#
 #     x_m, v_mps   the car's position (m) and velocity (m/s), positive to the right
 #     a_mps2       its constant acceleration (m/s^2): the pull
 #     dt_s         how long a frame lasts (s), and so the time step
@@ -68,49 +67,27 @@ MOTIONS = {"forward": forward, "backward": backward, "exact": exact}  # name a n
 
 
 # ==== 2. Colliding: the stickiness corrections ==================================================
+#     overlap      how far beyond a wall the move ended (m)
+#     off, into    off a wall is back towards the track; into it is the other way
+#     g            the pull into the wall (m/s^2); below 0, it is a pull off the wall
 #
-# When a move ends beyond a wall, the car may stick there. A correction takes the x and v of the
-# move's end, the wall, a and CR, and returns better ones. What is left of the frame after the
-# bounce, none and surface ignore; rebound flies on without the pull, rewind under it, and replay
-# settles further bounces. Overlap is how far x is beyond the wall, off the wall is back towards the
-# track, and g is a pull into the wall.
-#
-# The law of the hops explains chart and stability map. From the wall that it is pulled to, the car
-# hops; each hop should last CR times as long as the one before. By these methods, in frames from
-# collision to collision, a hop of more than a few frames leads to one of
-#     hop' = CR (hop + k/2) + k/2     none 0    surface +1    rebound +2
-#     with k =         forward  +2      2          3             4
-#                      exact     0      0          1             2
-#                      backward -2     -2         -1             0
-# Why? Take speeds in units of g dt. (1) A car that leaves the wall at w is back after 2 w frames.
-# (2) Euler's points lie on a true flight; only v is off. By forward the true speed is v + 1/2 on
-#     the way up, v - 1/2 on the way down; by backward the reverse. A bounce turns v round. So by
-#     forward the car comes at w, leaves at CR (w + 1/2) + 1/2, and 2 w becomes CR (2 w + 1) + 1.
-# (3) A car is found s frames after its bounce, on average 1/2, and is s too fast by then.
-#     none: it loses s again on its way out, so nothing is gained.
-#     surface: a hop ends when it is found. 2 w + s becomes 2 CR (w + s) + s' = CR (hop + s) + s'.
-#     rebound also skips the pull for s after the bounce, and its hops begin as late as they end:
-#     2 w becomes 2 (CR (w + s) + s) = CR (hop + 2 s) + 2 s.
-# At CR = 1 hops grow (k > 0) to the other wall, stay, or shrink to rest. At CR < 1 they end near
-# n = k/2 (1 + CR)/(1 - CR) frames at any FPS (example 20), or at rest (k < 0; if 0, by luck), if
-# none has not caught the car. Luck is s. At CR = 1 and one dt, v changes by whole g dt and its
-# sign: the start deals s. surface obeys each time (s + s' = 1; from rest 2), rebound on average.
+# A move that ends beyond a wall has missed a bounce: the car may stick there. A correction takes
+# the move's x and v, the wall, a and CR, and returns better ones. From the bounce to the frame's
+# end, the correction none leaves the car beyond the wall, surface holds it on the wall, rebound
+# lets it fly without the pull, and rewind lets it fly under the pull. replay redoes the whole move.
 
 def none(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Reverse v, but leave the car beyond the wall: a trap.
 
-    A frame later it may be beyond still: slowed by CR < 1 (a chance of about 1 - CR a bounce); by
-    backward, under a pull into the wall; by forward, under one off it. Then v is reversed again,
-    into the wall, and so on: it is caught. (exact at CR = 1 never is: it plays each hop back.) At
-    CR < 1 the swings die down, until each frame begins at a speed of CR g dt/(1 + CR) off the wall
-    and ends at g dt/(1 + CR) into it. forward moves by the first: the car creeps out and hops on.
-    backward moves by the second: it sinks by g dt^2/(1 + CR) a frame (example 3), and exact, by
-    their mean, sinks too.
+    The next step may be too short to bring it out: with CR < 1; by backward, under a pull into the
+    wall; or by forward, under a pull off it. Then v is reversed again, into the wall, and so on: it
+    is caught. At CR < 1 its swings die down. Under a pull into the wall, backward then sinks by
+    g dt^2/(1 + CR) a frame (example 3), exact sinks more slowly, and forward creeps out and hops.
     """
     return x_m, -CR * v_mps
 
 def surface(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
-    """Put the car on the wall, so that it cannot sink in. Hops end between its n and rebound's."""
+    """Put the car on the wall, so that it cannot sink in."""
     return wall_m, -CR * v_mps
 
 def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
@@ -121,13 +98,37 @@ def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -
     overlap_m = x_m - wall_m
     return wall_m - CR * overlap_m, -CR * v_mps
 
-def arrival(d_m: float, u_mps: float, g_mps2: float) -> tuple[float, float]:
-    """How long to a wall d_m ahead, and how fast there: t_s, w_mps. u and g are towards it."""
-    # The speed w at the wall, from energy: w^2 = u^2 + 2 g d. (max: for round-off.)
-    w_mps = math.sqrt(max(0.0, u_mps * u_mps + 2 * g_mps2 * d_m))
-    # The time t, from the mean velocity, d = (u + w)/2 t, or from w = u + g t: whichever subtracts
-    # no nearly equal numbers, as their difference is mostly round-off.
-    return (2 * d_m / (u_mps + w_mps) if u_mps > 0 else (w_mps - u_mps) / g_mps2), w_mps
+# The law of the hops explains chart and stability map. A car that is pulled to a wall hops on it.
+# Each hop, from the wall back to the wall, should last CR times as long as the one before. With
+# these three corrections it lasts, in frames and on average,
+#     hop' = CR (hop + before) + after        each the motion's entry + the correction's:
+#                before  after                    before  after
+#     forward      +1     +1         none           +CR    -1
+#     exact         0      0         surface        +1      0
+#     backward     -1     -1         rebound        +1     +1
+# Speed and frames. A car that leaves the wall at w is back after 2 w/(g dt) frames: g dt/2 more
+# speed is one frame more. Gained before the bounce it is multiplied by CR, gained after it not.
+# The motion. Euler's points lie on a true flight, but forward's v is its speed half a frame later:
+# g dt/2 too large on the way down, and the bounce turns it round: before +1; too small on the way
+# up, where the car is faster than v says: after +1. backward's v is half a frame early: -1 and -1.
+# The correction. A bounce is found at its frame's end, s frames late: from 0 to 1, 1/2 on average.
+# By then the pull has made the car s g dt too fast: before 2 s = +1. surface starts it at the wall:
+# after 0. rebound lets it fly for s frames without the pull that should slow it: after 2 s = +1.
+# With none it takes s/CR frames to get out of the wall, slowed by the pull: after -2 s/CR. If s is
+# over CR, it is not out in one frame, but caught; else s is CR/2 on average: before +CR, after -1.
+# Where it leads. At CR = 1 a hop is before + after frames longer than the last. If that is above 0,
+# hops grow up to the other wall; if below 0, the car comes to rest or, with none, is caught. At
+# CR < 1 let n = (CR before + after)/(1 - CR). Above 0, hops end around n frames, at any frame rate
+# (not at n: hops that repeat themselves repeat their s, too); below 0, again at rest or caught. At 0
+# it is luck, but exact + none repeats each hop. All this is for equal frames, and many in a hop.
+
+def arrival(d_m: float, u_mps: float, a_mps2: float) -> tuple[float, float]:
+    """How long to a wall d_m ahead, and how fast there: t_s, w_mps. u, a > 0 are towards it."""
+    # The speed w at the wall, from energy: w^2 = u^2 + 2 a d. (max: for round-off.)
+    w_mps = math.sqrt(max(0.0, u_mps * u_mps + 2 * a_mps2 * d_m))
+    # The time t, from the mean velocity, d = (u + w)/2 t, or from w = u + a t: whichever does not
+    # subtract nearly equal numbers, since their difference is mostly round-off.
+    return (2 * d_m / (u_mps + w_mps) if u_mps > 0 else (w_mps - u_mps) / a_mps2), w_mps
 
 def rewind(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Go back to the wall, bounce there, and go on for as long as the car was beyond.
@@ -140,7 +141,8 @@ def rewind(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) ->
     side = math.copysign(1, x_m - wall_m)  # 1 beyond the right wall, -1 beyond the left one
     t_s, w_mps = arrival(abs(x_m - wall_m), side * v_mps, -side * a_mps2)
     x_m, v_mps = exact(wall_m, -side * CR * w_mps, a_mps2, t_s)
-    return (min if side > 0 else max)(x_m, wall_m), v_mps  # at a second bounce: on the wall
+    is_beyond = side * (x_m - wall_m) > 0  # again: it has not settled a second bounce
+    return (wall_m if is_beyond else x_m), v_mps
 
 CORRECTIONS = {"none": none, "surface": surface, "rebound": rebound, "rewind": rewind,
                "replay": None}  # replay does not correct the move: it replaces it, in step
@@ -155,10 +157,7 @@ def setting(default: Any, meaning: str, allowed: Any = (False, True), unit: str 
 
 @dataclass(frozen=True)
 class Scene:
-    """The settings. Raises BadInput (a ValueError) for a wrong value.
-
-    A scene never changes. The car's state, x and v, does: step returns the new one.
-    """
+    """The settings; BadInput (a ValueError) for a wrong one. Only x and v change in a run."""
 
     x_m: float = setting(1.1, "starting position", (-1000, 1000), "m")
     v_mps: float = setting(0.0, "starting velocity, positive to the right", (-1000, 1000), "m/s")
@@ -199,42 +198,37 @@ def step(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> tuple[float, fl
     free_m, free_mps = motion(x_m, v_mps, scene.a_mps2, dt_s)
     on_track_m = scene.to_track(free_m)  # the wall, if the move ended beyond one
     is_beyond = on_track_m != free_m
-    if correction is None:
-        # A move that ends on the track can have been beyond a wall only if v has changed its sign.
-        if is_beyond or v_mps * free_mps < 0:
-            x_m, v_mps = replay(scene, x_m, v_mps, dt_s)
-            return x_m, v_mps, free_m if is_beyond or v_mps != free_mps else None  # a bounce?
-    elif is_beyond:
+    if correction and is_beyond:
         return *correction(free_m, free_mps, on_track_m, scene.a_mps2, scene.CR), free_m
+    # A move that ends on the track can have been beyond a wall only if v has changed its sign.
+    if not correction and (is_beyond or v_mps * free_mps < 0):
+        x_m, v_mps = replay(scene, x_m, v_mps, dt_s)
+        is_bounce = is_beyond or v_mps != free_mps  # without one, v is the move's to the last bit
+        return x_m, v_mps, (free_m if is_bounce else None)
     return free_m, free_mps, None
 
 GRAZE_M = 5e-11  # far above the round-off of a position
 
-def replay(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> State:
+def replay(scene: Scene, x_m: float, v_mps: float, t_s: float) -> State:
     """Replace the move: follow the exact motion from the frame's start, from wall to wall.
 
-    Right for a frame of any length, with several bounces (example 15) or infinitely many. Think of
-    a ball in a room: gravity pulls it to the floor (without a pull, the left wall); h is its
-    height. The loop ends: trips to the ceiling take time, and a ball too slow for it hops.
-
-    A ball that would pass the ceiling by under GRAZE_M misses it: there, an error of 1e-16 in h is
-    one of 1e-8 in v. Each miss shifts the car by up to 4 sqrt(room GRAZE_M), by default 4e-5 m.
+    Right for any frame, with several bounces (example 15) or infinitely many. Think of a ball in a
+    room: gravity pulls it to the floor (without a pull, the left wall), h is its height. The loop
+    ends: trips to the ceiling take time, and slower balls go to hops. A ball that would pass the
+    ceiling by under GRAZE_M misses it: v goes as the root of h there, so 1e-16 in h is 1e-8 in v.
+    Each miss shifts the car by up to 4 sqrt(room GRAZE_M), by default 4e-5 m.
     """
     up, floor_m = (-1, scene.right_edge_m) if scene.a_mps2 > 0 else (1, scene.left_edge_m)
     room_m, g_mps2, CR = scene.right_edge_m - scene.left_edge_m, abs(scene.a_mps2), scene.CR
     h_m, v_mps = up * (scene.to_track(x_m) - floor_m), up * v_mps
-    t_s = dt_s  # what is left of the frame
-    while v_mps or g_mps2:  # otherwise it rests for good
-        if v_mps > 0 and v_mps * v_mps >= 2 * g_mps2 * (room_m - h_m + GRAZE_M):
-            # Rising, fast enough for the ceiling.
+    while v_mps or g_mps2:  # otherwise it rests for good. t_s is what is left of the frame.
+        if v_mps > 0 and v_mps * v_mps >= 2 * g_mps2 * (room_m - h_m + GRAZE_M):  # to the ceiling
             flight_s, w_mps = arrival(room_m - h_m, v_mps, -g_mps2)
             bounced = room_m, -CR * w_mps
-        elif v_mps < 0 or h_m > 0:
-            # Falling, now or soon: the floor is next.
+        elif v_mps < 0 or h_m > 0:  # falling, now or soon: to the floor
             flight_s, w_mps = arrival(h_m, -v_mps, g_mps2)
             bounced = 0.0, CR * w_mps
-        else:
-            # On the floor, and too slow for the ceiling: hops until the frame's end.
+        else:  # on the floor, and too slow for the ceiling: hops until the frame's end
             t_s, v_mps = hops(v_mps, g_mps2, CR, t_s)
             break
         if flight_s > t_s:
@@ -258,7 +252,7 @@ def hops(v_mps: float, g_mps2: float, CR: float, t_s: float) -> tuple[float, flo
         return 0.0, 0.0
     if CR == 1:
         return math.fmod(t_s, hop_s), v_mps
-    # zeno (1 - CR^n) = t gives n. log1p(y) is log(1 + y), expm1(y) is e^y - 1, right for a small y.
+    # n hops last zeno (1 - CR^n). (log1p(y) is log(1 + y), expm1(y) e^y - 1, right for a small y.)
     n = math.floor(math.log1p(-t_s / zeno_s) / math.log(CR))
     return t_s + zeno_s * math.expm1(n * math.log(CR)), v_mps * CR**n
 
@@ -298,9 +292,12 @@ def details_text(x_m: float, v_mps: float, fps: float, true_m: float | None) -> 
 
 def planned(scene: Scene) -> Iterator[tuple[float, float]]:
     """Yield how long each frame should last, and the target rate in FPS; the same in every run."""
-    fps, jitter = scene.fps_target, scene.jitter
-    for frame in count(1):  # 0.618, the golden ratio's fractional part, spreads the lengths evenly
-        yield (1 + jitter * (2 * (0.618 * frame % 1) - 1)) / fps, fps
+    for frame in count(1):
+        fraction = 0.618 * frame % 1  # the golden ratio's: it spreads the lengths evenly
+        yield (1 + scene.jitter * (2 * fraction - 1)) / scene.fps_target, scene.fps_target
+
+STALL_S, STALL_FRAMES = 0.15, 1.5  # longer than both is a stall: a dragged window, say
+LATE_S = 0.02  # how late a frame may be, and the next ones make up for it
 
 def paced(scene: Scene, keys: Keys) -> Iterator[tuple[float, float]]:
     """Wait until each frame is due. Yield how long the last one took, and the rate in FPS.
@@ -316,10 +313,12 @@ def paced(scene: Scene, keys: Keys) -> Iterator[tuple[float, float]]:
             return
         now_s = time.perf_counter()
         took_s = now_s - began_s or due_s  # 0 where the clock has not ticked yet
-        is_stall = took_s > max(0.15, 1.5 * due_s)  # visibly long: a dragged window, say
-        yield due_s if was_paused or is_stall else took_s, fps if was_paused else 1 / took_s
+        rate = fps if was_paused else 1 / took_s
+        if was_paused or took_s > max(STALL_S, STALL_FRAMES * due_s):
+            took_s = due_s
+        yield took_s, rate
         began_s = now_s
-        if was_paused or now_s > deadline_s + max(due_s, 0.02):  # late: do not race to catch up
+        if was_paused or now_s > deadline_s + max(LATE_S, due_s):  # do not race to catch up
             deadline_s = now_s
 
 def truth_of(scene: Scene) -> Scene:
@@ -329,14 +328,13 @@ def truth_of(scene: Scene) -> Scene:
 def is_at_rest(scene: Scene, v_mps: float, recent_m: deque[float]) -> bool:
     """Whether the car rests against the wall that it is pulled to or, without a pull, against any.
 
-    Its mean position in recent frames is within 1 mm of it, and its v is no more than the pull
-    changes in their time. (By Euler's methods the v of a car that leans on a wall need not be 0.)
+    In recent frames its mean distance from the wall is at most 1 mm, and its v is no more than the
+    pull changes in their time. (By Euler's methods a car that leans on a wall may have some v.)
     """
-    mean_m = sum(recent_m) / len(recent_m)
-    is_left = scene.a_mps2 <= 0 and abs(mean_m - scene.left_edge_m) <= 0.001
-    is_right = scene.a_mps2 >= 0 and abs(mean_m - scene.right_edge_m) <= 0.001
     is_held = abs(v_mps) <= abs(scene.a_mps2) * len(recent_m) / scene.fps_target
-    return len(recent_m) == recent_m.maxlen and is_held and (is_left or is_right)
+    return len(recent_m) == recent_m.maxlen and is_held and any(
+        side * scene.a_mps2 >= 0 and fmean(abs(x_m - wall_m) for x_m in recent_m) <= 0.001
+        for side, wall_m in ((-1, scene.left_edge_m), (1, scene.right_edge_m)))
 
 def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None:
     """Film the scene until a key, the car at rest or max_frames ends it, and say which it was."""
@@ -413,7 +411,7 @@ def simulate(scene: Scene, fps: int, cut: int) -> Iterator[tuple[float, ...]]:
     step: no error adds up.
     """
     truth = truth_of(scene)
-    shift_s = max(0, cut - 2 / 3) / (CUTS - 1) / fps
+    shift_s = (cut - 2 / 3) / (CUTS - 1) / fps if cut else 0.0
     frames_a_sample = max(1, fps // 10)
     x_m, v_mps, _ = step(truth, truth.x_m, truth.v_mps, shift_s)
     for frame in range(frames_a_sample, SPAN_S * fps + 1, frames_a_sample):
@@ -494,10 +492,10 @@ def new_figure(file: str) -> Any:
         from matplotlib.figure import Figure
         return Figure(figsize=(8, 6), dpi=150, layout="constrained")
     except Exception as fault:  # a broken one may raise anything
-        raise BadInput(f"--save needs matplotlib, pip install \".[chart]\": {fault!r}") from fault
+        raise BadInput(f"--save needs matplotlib, pip install \".[chart]\": {fault}") from fault
 
-def save(figure: Any, file: str, points: Points, pixel_m: float, heading: str) -> None:
-    """Draw the points with matplotlib as well. Raises BadInput where it cannot save them."""
+def draw(figure: Any, points: Points, pixel_m: float, heading: str) -> None:
+    """Draw the points with matplotlib as well."""
     figure.suptitle(f"Speed against accuracy\n{textwrap.fill(heading, 126)}", fontsize=8)
     axes = figure.add_subplot(
         xscale="log", yscale="log", xlabel=f"largest error in {SPAN_S} s (m): better to the left",
@@ -509,20 +507,20 @@ def save(figure: Any, file: str, points: Points, pixel_m: float, heading: str) -
     axes.axvline(pixel_m, color="black", linestyle="--", label=f"one drawn pixel, {pixel_m:.2g} m")
     figure.legend(loc="outside lower center", ncols=3, title="Each line begins at "
                   f"{CHART_FPS[0]} FPS, at the top, and ends at {CHART_FPS[-1]} FPS")
-    try:
-        figure.savefig(file)
-    except Exception as fault:  # whatever matplotlib or the disk refuses
-        raise BadInput(f"--save {file!r}: {fault}") from fault
-    print(f"\nSaved as {file!a}.")
 
 def chart(scene: Scene, heading: str, file: str | None) -> None:
-    """Print the table and the picture; with a file, save the picture as well."""
-    figure = None if file is None else new_figure(file)  # fails before the measuring
+    """Print table and picture; with a file, save it too. Raises BadInput where it cannot."""
+    figure: Any = None if file is None else new_figure(file)  # fails before the measuring
     say(f"Speed against accuracy. {heading} {MEASURED}")
     points = table(scene)
     picture(points, 1 / scene.m_to_px)
     if file is not None:
-        save(figure, file, points, 1 / scene.m_to_px, heading)
+        try:
+            draw(figure, points, 1 / scene.m_to_px, heading)
+            figure.savefig(file, format=file[-3:])  # or it would write .svg as .svg.png
+        except Exception as fault:  # whatever matplotlib or the disk refuses
+            raise BadInput(f"--save {file!r}: {fault}") from fault
+        print(f"\nSaved as {file!a}.")
 
 
 # ==== 9. Where methods fail: the stability map ==================================================
@@ -728,7 +726,8 @@ def refusal(word: str) -> BadInput:
 def parsed(words: list[str]) -> tuple[dict[str, str], dict[str, Any]]:
     """What the words give: EXAMPLE, command and options; and the settings that they change."""
     given, changes = {}, {}
-    for word in (rest := iter(words)):
+    rest = iter(words)
+    for word in rest:
         word = "d" if word in ("-d", "D") else word
         name, equals, text = word.partition("=")
         if name in ("--frames", "--save"):
@@ -759,7 +758,7 @@ def obey(words: list[str]) -> int:
     example = EXAMPLES.get(number, OWN_SCENE)
     # Chart and map run all methods: the example's own must not refuse the changes.
     any_method = {"correction": "none"} if command in COMMANDS else {}
-    scene = Scene(**example.settings | any_method | changes)
+    scene = Scene(**(example.settings | any_method | changes))
     changed = "".join(f", {name}={value}" for name, value in changes.items())
     if command not in COMMANDS:
         title = f"Example {number}: {example.title}" if number in EXAMPLES else example.title
@@ -791,7 +790,7 @@ def main(argv: list[str] | None = None) -> int:
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # more output would fail
         if isinstance(fault, BrokenPipeError):  # the reader has seen enough, as in | head
             return 0
-        print(f"airtrack.py: error: {fault}", file=sys.stderr)
+        print("airtrack.py: error:", *str(fault).split(), file=sys.stderr)  # on one line
         return 2
 
 

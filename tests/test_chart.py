@@ -200,12 +200,12 @@ def test_the_picture_has_each_point_at_its_place_and_a_wall_of_one_pixel(capsys:
 
 
 @pytest.mark.usefixtures("quick")
-@pytest.mark.parametrize(("suffix", "start"), [
-    (".png", b"\x89PNG"), (".svg", b"<?xml"), (".pdf", b"%PDF")])
+@pytest.mark.parametrize(("name", "start"), [
+    ("ch\u00e4rt.png", b"\x89PNG"), (".svg", b"<?xml"), ("c.x.pdf", b"%PDF")])
 def test_the_saved_picture_has_the_figures_and_explains_itself(
-        suffix: str, start: bytes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
+        name: str, start: bytes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
         capsys: Capture) -> None:
-    figure, file = airtrack.new_figure(suffix), tmp_path / f"ch\u00e4rt{suffix}"
+    figure, file = airtrack.new_figure(name), tmp_path / name
     monkeypatch.setattr(airtrack, "new_figure", lambda _: figure)
     assert main(["chart", "14", "--save", str(file)]) == 0
     assert file.read_bytes().startswith(start)
@@ -233,15 +233,19 @@ def test_the_saved_picture_has_the_figures_and_explains_itself(
     ("chart.doc", None, "must end in .png, .svg or .pdf"), ("png", None, "not 'png'"),
     ("c.png", "raise ModuleNotFoundError(name='matplotlib')", "pip install \".[chart]\""),
     ("c.png", "raise RuntimeError('broken\\nin two lines')", "broken"),
-    ("c.png", "", "matplotlib"), ("nowhere/c.png", None, "No such file or directory")])
+    ("c.png", "", "matplotlib"), ("nowhere/c.png", None, "No such file or directory"),
+    ("c.svg", "import nothing", "nothing"), ("nowhere/bad_style.png", None, "zz")])
 def test_a_picture_that_cannot_be_saved_is_refused_in_a_line_before_the_measuring_if_possible(
         name: str, module: str | None, says: str, tmp_path: Path) -> None:
     if module is not None:
         (tmp_path / "matplotlib.py").write_text(module)
+    if "style" in name:
+        (tmp_path / "matplotlibrc").write_text("lines.marker: zz")
     code = ("import sys, airtrack; airtrack.CHART_FPS = (10,); "
             "sys.exit(airtrack.main(['chart', '--save', sys.argv[1]]))")
     done = subprocess.run([sys.executable, "-c", code, name], capture_output=True, text=True,
-                          cwd=HERE, env=environment(PYTHONPATH=str(tmp_path)), check=False)
+                          cwd=HERE, check=False,
+                          env=environment(PYTHONPATH=str(tmp_path), MATPLOTLIBRC=str(tmp_path)))
     assert done.returncode == 2
     assert ("FPS" in done.stdout) == name.startswith("nowhere")
     assert re.fullmatch(f"airtrack.py: error: .*{re.escape(says)}.*\n", done.stderr)

@@ -100,7 +100,9 @@ def test_the_film_in_time_and_the_fast_one_have_the_same_frames(
         jitter: float, clock: Clock, play: Play) -> None:
     words = f"99 d v_mps=1 right_edge_m=100 fps_target=10 jitter={jitter} --frames 30"
     for observed in (True, False):
-        paced = positions_m(play(f"{words} use_observed_dt={observed}"))
+        out = play(f"{words} use_observed_dt={observed}")
+        paced = positions_m(out)
+        assert observed or "t = 3.00 s" in ending(out)  # 30 frames of 0.1 s
         fast = positions_m(play(f"{words} use_observed_dt={observed} --fast"))
         assert paced == pytest.approx(fast, abs=0.0101)
         nominal_m = [1.1 + 0.1 * k for k in range(1, 31)]
@@ -164,6 +166,12 @@ def test_at_rest_is_a_third_of_a_second_within_a_millimetre_of_a_wall(
     assert ending(out).startswith(f"Stopped after {frames or 400} frames, ")
     why = "the car is at rest against a wall." if frames else "that is the frame limit."
     assert ending(out).endswith(f" s: {why}")
+
+
+@pytest.mark.parametrize("words", [
+    "1 correction=none", "10 correction=none CR=0.8", "20 motion=backward correction=none"])
+def test_a_car_that_swings_about_a_wall_is_not_at_rest(words: str, play: Play) -> None:
+    assert ending(play(f"{words} --fast --frames 3000")).endswith("frame limit.")
 
 
 @pytest.mark.parametrize("fps", [30, 240, 1000])
