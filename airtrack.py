@@ -15,8 +15,6 @@
 """
 # Sections 1 to 6 are the lesson: read them from the top. examples.py has the examples and the keys.
 
-from __future__ import annotations
-
 import difflib
 import math
 import os
@@ -31,6 +29,7 @@ from contextlib import nullcontext
 from dataclasses import Field, dataclass, field, fields, replace
 from functools import cache
 from itertools import count
+from pathlib import Path
 from statistics import fmean
 from typing import Any
 
@@ -72,17 +71,17 @@ MOTIONS = {"forward": forward, "backward": backward, "exact": exact}  # name a n
 #     g            the pull into the wall (m/s^2); below 0, it is a pull off the wall
 #
 # A move that ends beyond a wall has missed a bounce: the car may stick there. A correction takes
-# the move's x and v, the wall, a and CR, and returns better ones. From the bounce to the frame's
-# end, the correction none leaves the car beyond the wall, surface holds it on the wall, rebound
+# the move's x and v, the wall, a and CR, and returns better ones. After the bounce, until the frame
+# ends, the correction none leaves the car beyond the wall, surface holds it on the wall, rebound
 # lets it fly without the pull, and rewind lets it fly under the pull. replay redoes the whole move.
 
 def none(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Reverse v, but leave the car beyond the wall: a trap.
 
-    The next step may be too short to bring it out: with CR < 1; by backward, under a pull into the
-    wall; or by forward, under a pull off it. Then v is reversed again, into the wall, and so on: it
-    is caught. At CR < 1 its swings die down. Under a pull into the wall, backward then sinks by
-    g dt^2/(1 + CR) a frame (example 3), exact sinks more slowly, and forward creeps out and hops.
+    The step out may be shorter than the step in: if CR < 1, if backward is pulled into the wall, or
+    if forward is pulled off it. Then v is reversed again, into the wall, and so on: it is caught.
+    If CR < 1, v converges. Under a pull into the wall backward then sinks by g dt^2/(1 + CR) a
+    frame (example 3), exact sinks more slowly, and forward creeps out and hops on.
     """
     return x_m, -CR * v_mps
 
@@ -101,29 +100,30 @@ def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -
 # The law of the hops explains chart and stability map. A car that is pulled to a wall hops on it.
 # Each hop, from the wall back to the wall, should last CR times as long as the one before. With
 # these three corrections it lasts, in frames and on average,
-#     hop' = CR (hop + before) + after        each the motion's entry + the correction's:
+#     hop' = CR (hop + before) + after
+# before is the motion's entry plus the correction's, and so is after:
 #                before  after                    before  after
 #     forward      +1     +1         none           +CR    -1
 #     exact         0      0         surface        +1      0
 #     backward     -1     -1         rebound        +1     +1
-# Speed and frames. A car that leaves the wall at w is back after 2 w/(g dt) frames: g dt/2 more
-# speed is one frame more. Gained before the bounce it is multiplied by CR, gained after it not.
-# The motion. Euler's points lie on a true flight, but forward's v is its speed half a frame later:
-# g dt/2 too large on the way down, and the bounce turns it round: before +1; too small on the way
-# up, where the car is faster than v says: after +1. backward's v is half a frame early: -1 and -1.
-# The correction. A bounce is found at its frame's end, s frames late: from 0 to 1, 1/2 on average.
-# By then the pull has made the car s g dt too fast: before 2 s = +1. surface starts it at the wall:
-# after 0. rebound lets it fly for s frames without the pull that should slow it: after 2 s = +1.
-# With none it takes s/CR frames to get out of the wall, slowed by the pull: after -2 s/CR. If s is
-# over CR, it is not out in one frame, but caught; else s is CR/2 on average: before +CR, after -1.
-# Where it leads. At CR = 1 a hop is before + after frames longer than the last. If that is above 0,
-# hops grow up to the other wall; if below 0, the car comes to rest or, with none, is caught. At
-# CR < 1 let n = (CR before + after)/(1 - CR). Above 0, hops end around n frames, at any frame rate
-# (not at n: hops that repeat themselves repeat their s, too); below 0, again at rest or caught. At 0
-# it is luck, but exact + none repeats each hop. All this is for equal frames, and many in a hop.
+# Why? A car that leaves the wall at w is back after 2 w/(g dt) frames: g dt/2 more speed makes one
+# frame more. Speed gained before the bounce counts CR times, speed gained after it counts whole.
+# The motion. Euler's points lie on a true flight, of which v is the speed in mid-frame. So forward's
+# v is half a frame ahead: g dt/2 too large on the way down: before +1; g dt/2 too small on the way
+# up, so the car flies faster than v: after +1. backward's v is half a frame behind: -1 and -1.
+# The correction. A bounce is found at its frame's end, s frames late: 0 to 1, 1/2 on average. Until
+# then the pull goes on, and makes the car s g dt too fast: before 2 s = +1. surface then starts it
+# from the wall: after 0. rebound gives it s frames of flight without the pull: after 2 s = +1. With
+# none the car first flies out of the wall, for s/CR frames under the pull: after -2 s/CR. If s > CR
+# one frame is too short: it is caught. So s is 0 to CR, CR/2 on average: before +CR, after -1.
+# Where it leads. At CR = 1 each hop is before + after longer than the last: hops grow up to the
+# other wall or, if that is negative, shrink to rest. At CR < 1 a hop repeats itself if it lasts
+# n = (CR before + after)/(1 - CR) frames. Hops end near n, at any frame rate; if n is negative, at
+# rest. (With none, at rest means caught.) At 0, and in how near n, each hop's own s decides: luck.
+# The law is for frames of one length, and for hops of more than a few.
 
 def arrival(d_m: float, u_mps: float, a_mps2: float) -> tuple[float, float]:
-    """How long to a wall d_m ahead, and how fast there: t_s, w_mps. u, a > 0 are towards it."""
+    """How long to a wall d_m ahead, and how fast there: t_s, w_mps. u and a are + towards it."""
     # The speed w at the wall, from energy: w^2 = u^2 + 2 a d. (max: for round-off.)
     w_mps = math.sqrt(max(0.0, u_mps * u_mps + 2 * a_mps2 * d_m))
     # The time t, from the mean velocity, d = (u + w)/2 t, or from w = u + a t: whichever does not
@@ -169,7 +169,7 @@ class Scene:
     correction: str = setting("rebound", "stickiness correction of a collision", tuple(CORRECTIONS))
     fps_target: float = setting(30.0, "frames a second; time step 1/fps_target", (0.1, 1000), "1/s")
     use_observed_dt: bool = setting(False, "the step is how long the frame before took")
-    jitter: float = setting(0.0, "frames vary in length by up to this part of it", (0, 0.9))
+    jitter: float = setting(0.0, "frame lengths vary by up to this fraction", (0, 0.9))
     auto_off: bool = setting(True, "stop when the car rests against a wall")
     m_to_px: float = setting(55.0, "zoom; a pixel is a character", (0.001, 1000), "px/m")
     width_px: int = setting(135, "width of the picture, which begins at x = 0", (10, 1000), "px")
@@ -203,7 +203,7 @@ def step(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> tuple[float, fl
     # A move that ends on the track can have been beyond a wall only if v has changed its sign.
     if not correction and (is_beyond or v_mps * free_mps < 0):
         x_m, v_mps = replay(scene, x_m, v_mps, dt_s)
-        is_bounce = is_beyond or v_mps != free_mps  # without one, v is the move's to the last bit
+        is_bounce = is_beyond or v_mps != free_mps  # without one v is the move's, exactly
         return x_m, v_mps, (free_m if is_bounce else None)
     return free_m, free_mps, None
 
@@ -214,9 +214,9 @@ def replay(scene: Scene, x_m: float, v_mps: float, t_s: float) -> State:
 
     Right for any frame, with several bounces (example 15) or infinitely many. Think of a ball in a
     room: gravity pulls it to the floor (without a pull, the left wall), h is its height. The loop
-    ends: trips to the ceiling take time, and slower balls go to hops. A ball that would pass the
-    ceiling by under GRAZE_M misses it: v goes as the root of h there, so 1e-16 in h is 1e-8 in v.
-    Each miss shifts the car by up to 4 sqrt(room GRAZE_M), by default 4e-5 m.
+    ends: each trip to the ceiling takes time, and without one hops takes over. A ball that would
+    pass the ceiling by under GRAZE_M misses it: v^2 goes as the height to go, so 1e-16 in h is 1e-8
+    in v. Each miss shifts the car by up to 4 sqrt(room GRAZE_M), by default 4e-5 m.
     """
     up, floor_m = (-1, scene.right_edge_m) if scene.a_mps2 > 0 else (1, scene.left_edge_m)
     room_m, g_mps2, CR = scene.right_edge_m - scene.left_edge_m, abs(scene.a_mps2), scene.CR
@@ -297,7 +297,7 @@ def planned(scene: Scene) -> Iterator[tuple[float, float]]:
         yield (1 + scene.jitter * (2 * fraction - 1)) / scene.fps_target, scene.fps_target
 
 STALL_S, STALL_FRAMES = 0.15, 1.5  # longer than both is a stall: a dragged window, say
-LATE_S = 0.02  # how late a frame may be, and the next ones make up for it
+LATE_S = 0.02  # a delay up to this is made up for by the next frames
 
 def paced(scene: Scene, keys: Keys) -> Iterator[tuple[float, float]]:
     """Wait until each frame is due. Yield how long the last one took, and the rate in FPS.
@@ -329,7 +329,7 @@ def is_at_rest(scene: Scene, v_mps: float, recent_m: deque[float]) -> bool:
     """Whether the car rests against the wall that it is pulled to or, without a pull, against any.
 
     In recent frames its mean distance from the wall is at most 1 mm, and its v is no more than the
-    pull changes in their time. (By Euler's methods a car that leans on a wall may have some v.)
+    pull changes in that time. (By Euler's methods a car that leans on a wall may have some v.)
     """
     is_held = abs(v_mps) <= abs(scene.a_mps2) * len(recent_m) / scene.fps_target
     return len(recent_m) == recent_m.maxlen and is_held and any(
@@ -394,9 +394,10 @@ def say(text: str, indent: int = 0) -> None:
 # ==== 8. Speed against accuracy: the chart ======================================================
 
 SPAN_S, CUTS = 20, 10  # of chart and map: simulated seconds, runs of each method
-MEASURED = ("The scene's own motion, correction and rate do not matter. Each method runs ten times "
-            "for 20 simulated seconds: once from the scene's own start, and nine times with the "
-            "frames cut later. Of these ten cuts the worst counts.")
+MEASURED = ("The scene's own motion, correction and rate do not matter, nor do jitter and observed "
+            "dt: all frames are equally long. Each method runs ten times for 20 simulated seconds: "
+            "once from the scene's own start, and nine more times with a shorter first frame, so "
+            "that the car meets the walls at another point of a frame. The worst run counts.")
 CHART_FPS = (10, 30, 60, 120, 240, 480, 960, 1920, 3840)  # multiples of 10, for simulate
 SERIES = {"a": ("backward", "surface"), "b": ("backward", "rebound"), "c": ("exact", "rebound"),
           "d": ("exact", "rewind"), "e": ("exact", "replay")}
@@ -455,8 +456,9 @@ def table(scene: Scene) -> Points:
             points[letter].append((error_m, us))
             row += f"{error_m:9.1e}{two_digits(us):>6}"
         print(row, flush=True)
-    print(f"Within a pixel ({1000 / scene.m_to_px:.3g} mm) in all cuts from this rate (FPS) on:")
-    cells = (first_within(series, 1 / scene.m_to_px) for series in points.values())
+    pixel_m = 1 / scene.m_to_px
+    print(f"Within a pixel ({1000 * pixel_m:.3g} mm) in all ten runs from this rate (FPS) on:")
+    cells = (first_within(series, pixel_m) for series in points.values())
     print(f"    {''.join(cells)}\n")
     return points
 
@@ -469,9 +471,9 @@ def picture(points: Points, pixel_m: float) -> None:
     marks = [(round(4 * math.log10(us)), error_px(error_m), letter)
              for letter, series in points.items() for error_m, us in series]
     limit_px = error_px(pixel_m)
-    say("To the right: largest error of ten cuts, sampled every 0.1 s. Down: processor time for a "
-        "simulated second, in us (microseconds). The best are in the upper left. Errors to the "
-        "right of the | are more than a drawn pixel: a film shows them.")
+    say("To the right: largest error of ten runs, sampled every 0.1 s. Down: processor time for a "
+        "simulated second, in us (microseconds). The best are in the upper left. Right of the | is "
+        "more than a pixel of a film at full size.")
     say("; ".join(f"{letter}: {' + '.join(method)}" for letter, method in SERIES.items())
         + "; +: several of them.")
     print(f"\n{'one drawn pixel |':>{limit_px + 11}}")
@@ -529,7 +531,7 @@ MAP_FPS = (1, 2, 5, 10, 30, 60, 120, 240, 1000)  # at most 10, or multiples of i
 VERDICTS = {  # from the worst to the best
     "X": "out: further beyond a wall than the track is long",
     "S": "stuck: beyond the same wall all through the last 5 s",
-    "W": "win or lose: some cuts gain energy, others lose it",
+    "W": "win or lose: some runs gain energy, others lose it; always a capital",
     "G": "gain: in the last 5 s over 1 % more energy than the true car, on average",
     "L": "loss: over 1 % less (100 %: v^2/2 at the start + |a| * the track's length)",
     "P": "energy within 1 %, but over a drawn pixel off; at CR < 1 it may hop still",
@@ -555,14 +557,14 @@ def verdict(scene: Scene, fps: int, cut: int) -> str:
     return "G" if gain > one_percent else "L" if gain < -one_percent else "P"
 
 def cell(found: set[str]) -> str:
-    """One letter for ten verdicts: the worst, or its small letter where not all are so bad."""
+    """One letter for ten runs: the worst, or its small letter where not all are so bad."""
     worst = min(found, key=list(VERDICTS).index)
     if worst == "G" and "L" in found:
         return "W"
     return worst if len(found) == 1 else worst.lower()
 
 def stability(scene: Scene, heading: str) -> None:
-    """Print the map: a row for each method, a column for each rate, a letter for the ten cuts."""
+    """Print the map: a row for each method, a column for each rate, a letter for ten runs."""
     say(f"Stability. {heading} {MEASURED}")
     print(f"\n{'FPS':20}" + "".join(f"{fps:6}" for fps in MAP_FPS))
     for motion in MOTIONS:
@@ -576,9 +578,9 @@ def stability(scene: Scene, heading: str) -> None:
                 print(f"{f'{motion} + {correction}':20}{inked(row)}", flush=True)
     for letter, meaning in VERDICTS.items():
         print(f"{inked(letter)}  {meaning}")
-    say("A capital: all ten cuts deserve the letter; small: only some do, the others a better one. "
-        "Samples: every 0.1 s, or every frame, where it is longer. At CR < 1, a G car hops on or, "
-        "at 1 or 2 FPS, lies at the wall with a large v.")
+    say("From the worst to the best. A capital: all ten runs; small: some of the ten, the others "
+        "better, that is, further down. Samples: every 0.1 s, or frame if longer. At CR < 1 a G "
+        "car hops on or, at 1 or 2 FPS, lies at a wall with a large v.")
 
 
 # ==== 10. Checking a scene ======================================================================
@@ -623,6 +625,7 @@ def check(scene: Scene) -> None:
 
 SETTINGS = {row.name: row for row in fields(Scene)}
 COMMANDS = ("chart", "stability")
+PYTHON = Path(sys.executable).stem  # python3, where there is no python
 OPTIONS = {"d": "the film", "--fast": "the film", "--frames": "the film", "--save": "chart"}
 
 def in_words(scene: Scene) -> str:
@@ -656,14 +659,13 @@ def fitted(scene: Scene, details: bool) -> Scene:
     columns = max(10, columns)  # the least that a scene may have; likewise the zoom
     # Columns run from 0 to width - 1: what is in the last one stays in the last one.
     m_to_px = max(0.001, scene.m_to_px * (columns - 1) / (scene.width_px - 1))
-    say(f"To fit, the picture is {columns} columns wide, {m_to_px:.3g} to a metre; the physics is "
-        "untouched.")
+    say(f"Drawn {columns} columns wide, to fit.")
     return replace(scene, width_px=columns, m_to_px=m_to_px)
 
 def tell_of_walls(scene: Scene) -> None:
     """Say that a wall is outside the picture, and what would show both."""
     if round(scene.left_edge_m * scene.m_to_px) < 0:
-        say("A wall is to the left of x = 0, where the picture begins: add to x_m and both walls.")
+        say("The picture begins at x = 0: shift x_m and the walls.")
     elif round(scene.right_edge_m * scene.m_to_px) >= scene.width_px:
         enough = math.floor(1000 * (scene.width_px - 1) / scene.right_edge_m) / 1000
         say(f"The picture ends before a wall: m_to_px={enough:g} would show both.")
@@ -686,13 +688,13 @@ def film(scene: Scene, number: int, title: str, options: dict[str, str]) -> int:
             keys.leave_time()
         print(flush=True)
         run(view, details, max_frames, keys)
-        if keys and keys.frame and not keys.status and number in EXAMPLES:
-            if scene != Scene(**example.settings):
+        if keys and keys.frame and not keys.status:
+            if number in EXAMPLES and scene != Scene(**example.settings):
                 say("(What follows is about the example as it is, without your changes.)")
             say(example.seen)
             following = number + 1 if number + 1 in EXAMPLES else "chart"
-            if keys.where():
-                print(f"Next: python airtrack.py {following}", flush=True)
+            if number in EXAMPLES and keys.where():
+                print(f"Next: {PYTHON} airtrack.py {following}", flush=True)
     return keys.status if keys else 0
 
 def manual() -> int:
@@ -719,7 +721,7 @@ def refusal(word: str) -> BadInput:
     start = word.partition("=")[0].lower()
     near = difflib.get_close_matches(start, names, n=1)
     near = near or [name for name in names if start and name.startswith(start)]
-    hint = f"nearest: {names[near[0]]}" if near else "python airtrack.py -h lists all"
+    hint = f"nearest: {names[near[0]]}" if near else "-h lists all"
     return BadInput(f"unknown word {word!r}: it must be an EXAMPLE (whole number), a command, an "
                     f"option or a setting (NAME=VALUE); {hint}")
 
@@ -772,7 +774,7 @@ def obey(words: list[str]) -> int:
         following = "That was the tour. README.md has exercises."
     else:
         chart(on_track, heading, given.get("--save"))
-        following = "\nNext: python airtrack.py stability"
+        following = f"\nNext: {PYTHON} airtrack.py stability"
     if sys.stdout.isatty():
         print(following)
     return 0

@@ -4,8 +4,6 @@ An example is a title, the settings in which its scene differs from the default 
 shows. The keys work in a little pygame window and in the terminal, whichever has the focus.
 """
 
-from __future__ import annotations
-
 import contextlib
 import math
 import os
@@ -49,17 +47,17 @@ EXAMPLES = {
         "show_collision_mark": False},
         "An air track: * is the car, | are the walls, and each line is one moment. Where will the "
         "car be after 45 s? Then end the film with x.",
-        "It lies at the left wall, to which it is pulled. It lost 20 % of its speed in each of 26 "
-        "bounces, the last in frame 2930 (t = 44 s). From then on each frame pulls it into the "
-        "wall and puts it back. python airtrack.py -h lists the tour.",
+        "From frame 2930 on (t = 44 s) it lies at the left wall, to which it is pulled. It lost 20 "
+        "% of its speed in each of 26 bounces. Now each frame pulls it into the wall and puts it "
+        "back.",
         details=True),
     1: Example("A first look", {
         "x_m": 2.0, "a_mps2": -1.5, "CR": 0.7, "show_collision_mark": False},
-        "Watch the bottom row, or cover all above it with a sheet of paper: there the car (*) "
-        "moves between its walls (|). Before each bounce, say where it will turn.",
-        "It was pulled to the left, and kept 70 % of its speed at each bounce. So it came back "
-        "about half as far each time (0.7^2 = 0.49): 0.87 m, 0.46 m, 0.21 m from the wall. When it "
-        "has been at rest for a third of a second, in frame 251, the film stops by itself."),
+        "Watch the bottom row (cover those above with paper): there the car (*) moves between its "
+        "walls (|). At each bounce, say how far from the left wall it will get.",
+        "It gets 0.87 m, 0.46 m, 0.21 m from the wall: each time about half as far as before. It "
+        "keeps 70 % of its speed in a bounce, and 0.7^2 = 0.49 of its energy. When it has been at "
+        "rest for a third of a second, in frame 251, the film stops by itself."),
     2: Example("No correction", {
         "x_m": 1.65, "v_mps": 2.7, "CR": 1.0, "correction": "none", "show_collision_mark": False},
         "Nothing puts the car back on the track after a collision. How far does it go into the "
@@ -71,59 +69,57 @@ EXAMPLES = {
         "show_collision_mark": False},
         "Now the car loses speed in a bounce, and it is pulled to the left. Does it come back from "
         "the left wall? Give it ten seconds, then press x.",
-        "In frame 46 (t = 1.53 s) the car is beyond the left wall. Its velocity is reversed, but "
-        "60 % of the speed is too little to get out in one frame. So the next frame reverses it "
-        "again, now into the wall, and so on. These swings die down. From frame 60 on the car "
-        "begins each frame at 0.02 m/s outwards (see d). The pull makes that 0.03 m/s inwards, of "
-        "which 60 %, reversed, are 0.02 again. So the car sinks by 1 mm a frame. After about nine "
-        "seconds it is out of the picture: <"),
+        "In frame 46 (t = 1.53 s) it is beyond the left wall, and its velocity is reversed. But "
+        "with 60 % of its speed it is not out again a frame later. So it is reversed once more, "
+        "now into the wall, and so on: it is caught. From then on the pull makes it sink, at last "
+        "by 1 mm a frame. After about nine seconds it is out of the picture: <"),
     4: Example("A high frame rate", {
         "x_m": 0.2, "v_mps": 10.0, "a_mps2": -10.0, "CR": 0.8, "fps_target": 300.0,
         "show_collision_mark": False},
         "Each line is a 300th of a second. Wait for its end. Then scroll back, as far as your "
         "terminal keeps the lines: what does the motion look like?",
-        "Each hop is an arc, a parabola. The first are hundreds of lines long, the last ones draw "
-        "a tail. The run stops after 1880 frames. The car starts just beyond the left wall, at 10 "
-        "m/s. Each of the first two frames finds it there and takes 20 %: it leaves at 6.4 m/s."),
+        "Each hop is an arc, a parabola. The first ones are hundreds of lines long, the last ones "
+        "draw a tail, and the film stops after 1880 frames. (As the car starts beyond the wall, "
+        "both of its first two frames are bounces: it leaves at 6.4 m/s.)"),
     5: Example("Where each collision was found", {
         "x_m": 2.0, "v_mps": 3.0, "a_mps2": 2.0, "CR": 0.7},
         "A 0 is where the move alone put the car, beyond the wall. Where is the * in the same "
         "line? Does every collision show a 0?",
-        "The * is on the track, at 70 % of the distance from the wall to the 0. Not each of the 19 "
-        "collisions shows a 0: many are so near the wall that it hides them. Add fps_target=10, "
-        "and each of the first five does (end that film with x). It is at rest after 236 frames."),
+        "The * is back on the track, by 70 % of the way that it had been beyond the wall. Not each "
+        "of the 19 collisions shows a 0: most are so near the wall that it hides them. Add "
+        "fps_target=10, and each of the first five does (end that film with x)."),
     6: Example("Example 5 zoomed out", {
         "x_m": 2.0, "v_mps": 3.0, "a_mps2": 2.0, "CR": 0.7, "m_to_px": 30.0},
-        "The drawing is smaller than in example 5. Does the motion? Compare how many frames it "
-        "takes.",
+        "The drawing is smaller than in example 5. Does the motion change? Compare after how many "
+        "frames the film stops.",
         "Only the drawing changes: it is 30/55 as wide. With d the figures are those of example 5, "
-        "and the run ends after 236 frames again."),
+        "and the film stops after 236 frames again."),
     7: Example("Elastic, small steps", ELASTIC | {"fps_target": 240.0},
         "No speed is lost in a bounce. So the car should come back to the start mark, the dot at 2 "
         "m, every time. Does it? End the film with x.",
-        "Nearly. It turns 1.1 cm short of the mark, first in frame 633 (t = 2.64 s). The next time "
-        "it turns at the mark, then short of it again."),
+        "Nearly. Its first way back ends 1.1 cm short of the mark, in frame 633 (t = 2.64 s), the "
+        "next one at the mark, and so on, alternately. 1.1 cm are less than a column: d tells."),
     8: Example("Elastic, large steps", COARSE,
-        "Example 7 at 10 FPS: the car moves up to 0.26 m in a frame. Where does it turn now? Watch "
-        "four turns, then end the film with x.",
-        "After the first bounce it turns at 1.88 m, 12 cm short of the start mark, after the "
-        "second at the mark, and so on. Backward Euler costs 1 cm of height a frame, 26 cm in fall "
-        "and rise. The rebound gives back twice as much as the car was beyond the wall: 14 cm, "
-        "then 38 cm. After a start at rest all speeds are whole multiples of 0.2 m/s, so the same "
-        "two bounces come by turns."),
+        "Example 7 at 10 FPS: the car moves up to 0.26 m in a frame. How near to the start mark "
+        "does it come back? Watch four times, then press x.",
+        "It comes back to 1.88 m, 12 cm short of the mark, then to the mark, and so on, "
+        "alternately. Backward Euler costs 1 cm of height a frame, 26 cm in fall and rise. The "
+        "rebound lifts the car from beyond the wall to as far off it, and does not slow it. So it "
+        "gives back twice the overlap: 14 cm, then 38 cm, then 14 cm again."),
     9: Example("Elastic, large and irregular steps", COARSE | IRREGULAR,
-        "Example 8 with irregular frames: each is up to a quarter longer or shorter, and sets the "
-        "time step of the next. Where does it turn? Press x after 30 s.",
+        "Example 8 with frames up to a quarter longer or shorter: each sets the next one's time "
+        "step. How near the start mark does it come? Press x after 30 s.",
         "The errors of the bounces are irregular too. So the car turns elsewhere each time: first "
         "at 1.81 m, and after about half a minute beyond the start mark as well. It wanders."),
     10: Example("The exact solution", EXACT,
-        "Only 10 FPS, but exact formulas. Where does the car turn? For the first bounce, frame 14, "
-        "press p at once, then s fourteen times. End it with x.",
+        "Only 10 FPS, but exact formulas. How near to the start mark does the car come back? Begin "
+        "with s, and press it fourteen times to see the first bounce.",
         "The car moves by the formulas of kinematics, and each bounce is worked out at its own "
         "moment. (The 0 in frame 14 is where the move alone had put it.) So it comes back to the "
         "start mark, the dot at 2 m, every time. In example 8 it does not."),
     11: Example("The exact solution, irregular steps", EXACT | IRREGULAR,
-        "Example 10 with irregular frames. Where does the car turn? End the film with x.",
+        "Example 10 with irregular frames. How near to the start mark does the car come back? End "
+        "the film with x.",
         "At the start mark, all the same. The exact solution does not depend on how the time is "
         "cut into frames, as long as no frame holds two bounces (example 12) or misses one (18)."),
     12: Example("The exact solution, losing energy", EXACT | IRREGULAR | {"CR": 0.8},
@@ -168,12 +164,12 @@ EXAMPLES = {
         "The * stays on the o until the first bounce, in frame 14, and then leaves it: by up to "
         "1.8 m within 20 s. What fails is the rebound. It lifts the car off the wall without "
         "slowing it down. So the car gains energy at each bounce off the left wall, to which it is "
-        "pulled, and gives some back at the right one. Motion and collision add up, here to 0 and "
-        "+2 lines a hop (see example 19). With correction=rewind the * stays on the o."),
+        "pulled, and gives some back at the right one. With correction=rewind the * stays on the "
+        "o."),
     18: Example("The exact solution at 4 FPS", {
         "x_m": 0.65, "v_mps": 5.0, "a_mps2": -8.0, "CR": 1.0, "motion": "exact",
         "correction": "rewind", "fps_target": 4.0, "show_exact_mark": True},
-        "Press p at once, then s four times, and watch the right wall. What does the o do there, "
+        "Begin with s, press it four times, and watch the right wall. What does the o do there, "
         "and what does the *? End the film with x.",
         "In frame 3 the o has bounced off the right wall, the * turned without a bounce. In frame "
         "4 they are about 0.4 m apart. The move of frame 3 goes 1 cm beyond the wall and ends back "
@@ -185,24 +181,26 @@ EXAMPLES = {
         "fps_target": 10.0, "show_exact_mark": True},
         "Nothing is lost in a bounce: the o bounces on for ever. And the *? Count its hops, in "
         "lines. (With d: at a bounce v turns positive.)",
-        "The hops of the * take 15, 14, 13 ... lines, each one fewer than the one before, down to "
-        "2 and 1, which are too low to see. In frame 134 it is at rest. In each hop backward Euler "
-        "counts -2 lines, surface +1; forward +2, exact 0, none 0, rebound +2. Foretell the other "
-        "eight sums, then count until the * meets the right wall: add motion=exact, for one."),
+        "The hops of the * take 15, 14, 13 ... lines, down to 2 and 1, which are too low to see. "
+        "In frame 134 it is at rest. Backward Euler makes each hop two lines shorter than the one "
+        "before, surface makes it one line longer. Forward makes it two longer, and so does "
+        "rebound; exact and none change nothing. Predict the eight other pairs, then count until "
+        "the * meets the right wall: add motion=exact, for one."),
     20: Example("Hops that lose speed, counted", {
         "x_m": 0.66, "v_mps": 0.75, "a_mps2": -2.0, "CR": 0.8, "motion": "exact",
         "fps_target": 10.0, "show_exact_mark": True},
         "Each bounce takes 20 % of the speed. Which comes to rest, o or *, and when? Count the "
         "hops of the * as in example 19. End with x.",
         "The o lies still from t = 7.05 s on, its Zeno point, hidden by the wall. The hops of the "
-        "* take 14, 12, 10, 9 lines, and then 9 for ever, 20 cm high. Exact motion counts 0 lines. "
-        "The rebound counts 2, one before the bounce and one after it. As the bounce keeps 80 %, 9 "
-        "is followed by 0.8 (9 + 1) + 1 = 9. At a higher rate the hops end at about as many lines, "
-        "so they are lower. With motion=backward correction=surface, -2 + 1, the * comes to rest."),
+        "* take 14, 12, 10 lines and, from frame 48 on (t = 4.8 s), 9 for ever, 20 cm high. The "
+        "rebound adds one line before the bounce, which keeps 80 %, and one after it: 9 is "
+        "followed by 0.8 (9 + 1) + 1 = 9. At a higher rate the hops end at about as many lines, so "
+        "they are lower. With motion=backward correction=surface, -1 + 1 before and -1 after, the "
+        "* comes to rest."),
 }
 OWN_SCENE = Example("Your own scene", {},
-    "Where does it turn? Does it come to rest? Under a pull, at CR < 1, backward + surface always "
-    "does, exact + replay if the true car does, the default by luck. More: python airtrack.py -h")
+    "How far does the car get from each wall? Does it come to rest?",
+    "To go on, add show_exact_mark=True, another motion or correction, or the word stability.")
 
 
 # ==== The terminal's keys =======================================================================
@@ -368,19 +366,20 @@ class Keys:
     def where(self) -> str:
         """Where keys work; nothing where they do not."""
         window = [] if self.window.why_shut else ["in the little window"]
-        return " and ".join(window + ["in this terminal"] * HAS_KEYBOARD)
+        return " and ".join(["here"] * HAS_KEYBOARD + window)
 
     def help(self, question: str) -> Iterator[str]:
-        """What to press, and where; the question; how the film begins."""
-        if self.window.why_shut:
-            yield f"No window for the keys: {self.window.why_shut}."
+        """What to press, and where, or why nowhere; the question; how the film begins."""
+        why = f" (no window: {self.window.why_shut})" if self.window.why_shut else ""
         if self.where():
-            yield f"Keys, {self.where()}: p or Ctrl-S pauses, s steps one frame further, x quits."
+            yield f"Keys {self.where()}: p pauses, s steps, x quits{why}."
+        else:
+            yield f"No keys here{why}."
         yield question
         if self.where():
-            yield f"Enter or Ctrl-C begins the film, p holds this text; it begins in {THINK_S:g} s."
+            yield f"It begins in {THINK_S:g} s, or with Enter; p holds this text."
         else:
-            yield f"The film begins in {WAIT_S:g} s. Ctrl-C begins it at once."
+            yield f"It begins in {WAIT_S:g} s, or with Ctrl-C."
 
     def look(self) -> None:
         """Act on the signals and the keys that came since the last look."""

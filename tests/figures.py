@@ -87,7 +87,7 @@ def told_plainly(motion: str, correction: str, CR: float, fps: int, cut: int) ->
 
 
 def letter_told_plainly(samples: Samples) -> str:
-    """What a run of that fall deserves on the map, at 55 px/m."""
+    """What a run of that fall gets on the map, at 55 px/m."""
     if any(x < 0.25 - 1.95 or x > 2.2 + 1.95 for x, *_ in samples):
         return "X"
     last = samples[len(samples) * 3 // 4:]

@@ -272,7 +272,7 @@ SHORT = {"x_m": 0.5, "left_edge_m": 0.0, "right_edge_m": 1.0, "CR": 1.0, "correc
     # A starting v adds 1 % of v^2/2 to that.
     (LONG | {"v_mps": 30.0, "a_mps2": -2.45, "motion": "forward"}, 1, "G"),
     (LONG | {"v_mps": 30.0, "a_mps2": -2.4, "motion": "forward"}, 1, "P"),
-    # From mid-track, one step of v ends v - 0.5 m beyond a wall; the last is so at both by turns.
+    # From mid-track, one step of v ends v - 0.5 m beyond a wall; the last at either in turn.
     (SHORT | {"v_mps": 1.4}, 1, "P"), (SHORT | {"v_mps": -1.6}, 1, "X"),
     (SHORT | {"x_m": 1.0, "v_mps": -1.85, "a_mps2": 0.075}, 1, "L"),
     # At CR = 0 it stays where it is found beyond the wall: in the last 5 of 20 s, or 4.
@@ -286,7 +286,7 @@ def test_a_verdict_is_the_first_letter_that_fits_a_run(
 @pytest.mark.parametrize(("found", "letter"), [
     ("X", "X"), ("XGL-", "x"), ("SP", "s"), ("GLP-", "W"), ("GL", "W"), ("G", "G"), ("GP", "g"),
     ("L", "L"), ("L-", "l"), ("P", "P"), ("P-", "p"), ("-", "-")])
-def test_a_cell_is_the_worst_of_the_cuts_and_small_where_only_some_deserve_it(
+def test_a_cell_is_the_worst_of_the_cuts_and_small_where_only_some_are_so_bad(
         found: str, letter: str) -> None:
     assert cell(set(found)) == letter
 

@@ -50,7 +50,7 @@ NEAREST = {  # a word that is none: the nearest name
     "frames=5": "--frames", "--fast=yes": "--fast", "v=3": "v_mps=VALUE", "a=-9.81": "a_mps2=VALUE"}
 HINTS = {word: f"nearest: {name}" for word, name in NEAREST.items()}
 HINTS |= dict.fromkeys(("ten", "3.5", "=3", "", "a\nb", "9" * 5000),
-                       "python airtrack.py -h lists all")
+                       "-h lists all")
 
 
 @pytest.mark.parametrize(("words", "sentence"), [
@@ -134,7 +134,7 @@ def test_settings_come_on_top_of_the_example(capsys: Capture) -> None:
      "The car starts at 5 m, beyond a wall, at rest, not pulled; walls "),
     ("99", "Your own scene. The car starts at 1.1 m, at rest, not pulled: nothing moves it until "
      "v_mps or a_mps2 is given; walls at 0.25 and 2.2 m; CR=0.8. Motion backward, correction "
-     "rebound, 30 frames a second. Where does it turn? "),
+     "rebound, 30 frames a second. How far does the car get "),
     ("99 v_mps=1", "Your own scene, v_mps=1.0. The car starts at 1.1 m, moving to the right at 1 "),
     ("-3 v_mps=-3 a_mps2=1.5 motion=exact", "Your own scene, v_mps=-3.0, a_mps2=1.5, motion=exact. "
      "The car starts at 1.1 m, moving to the left at 3 m/s, pulled to the right at 1.5 m/s^2; "

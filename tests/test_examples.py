@@ -56,8 +56,8 @@ def test_example_10_at_frames_13_and_14(capsys: Capture) -> None:
 
 
 @pytest.mark.parametrize(("words", "frames", "t_s", "x_m"), [
-    ("1", 251, 8.37, 0.25), ("4", 1880, 6.27, 0.25), ("5", 236, 7.87, 2.20),
-    ("6", 236, 7.87, 2.20), ("12", 130, 12.96, 0.25), ("12 correction=replay", 122, 12.19, 0.25),
+    ("1", 251, 8.37, 0.25), ("4", 1880, 6.27, 0.25), ("6", 236, 7.87, 2.20),
+    ("12", 130, 12.96, 0.25), ("12 correction=replay", 122, 12.19, 0.25),
     ("19", 134, 13.4, 0.25)])
 def test_these_come_to_rest_in_the_frame_that_their_text_says(
         words: str, frames: int, t_s: float, x_m: float, capsys: Capture) -> None:
@@ -83,10 +83,6 @@ def says(number: int, *figures: str) -> None:
     for figure in figures:
         assert re.search(rf"(?<![\d.]){re.escape(figure)}(?!\.?\d)", example.seen), figure
         assert figure not in example.look_for
-
-
-def test_the_text_before_a_film_is_short() -> None:
-    assert max(len(example.look_for.split()) for example in EXAMPLES.values()) <= 40
 
 
 def test_0_bounces_26_times_and_then_lies_at_the_left_wall() -> None:
@@ -116,15 +112,13 @@ def test_2_is_drawn_up_to_8_cm_beyond_the_walls_and_never_stops(capsys: Capture)
 
 
 def test_3_is_caught_in_frame_46_and_sinks_a_millimetre_a_frame(capsys: Capture) -> None:
-    says(3, "frame 46", "t = 1.53 s", "60 %", "frame 60", "0.02 m/s", "0.03 m/s", "1 mm", "nine")
+    says(3, "frame 46", "t = 1.53 s", "60 %", "1 mm", "nine")
     assert round(46 / 30, 2) == 1.53
-    found = states(3, 600)
-    xs = [x_m for x_m, _, _ in found]
+    xs = [x_m for x_m, _, _ in states(3, 600)]
     assert [x_m < 0.25 for x_m in xs].index(True) + 1 == 46
     assert all(x_m < 0.25 for x_m in xs[45:])
-    assert min(v_mps for _, v_mps, _ in found[45:53]) < -0.01  # swings, in and out
-    assert {round(v_mps, 2) for _, v_mps, _ in found[58:]} == {0.02}
-    assert {round(v_mps - 1.5 / 30, 2) for _, v_mps, _ in found[58:]} == {-0.03}
+    assert min(b - a for a, b in pairwise(xs[45:52])) < 0 < max(
+        b - a for a, b in pairwise(xs[45:52]))  # swings, in and out
     assert (xs[99] - xs[599]) / 500 == pytest.approx(1e-3, rel=0.1)
     assert round(xs[599], 2) == -0.35
     for narrower, frames in (("width_px=135", 272), ("width_px=80 m_to_px=32.425", 278)):
@@ -135,7 +129,7 @@ def test_3_is_caught_in_frame_46_and_sinks_a_millimetre_a_frame(capsys: Capture)
 
 
 def test_4_collides_in_its_first_two_frames_and_leaves_at_6_4_mps() -> None:
-    says(4, "10 m/s", "6.4 m/s")
+    says(4, "6.4 m/s")
     bounces = [n for n, (_, _, mark_m) in enumerate(states(4, 1000)) if mark_m is not None]
     assert bounces[3] - bounces[2] > 100
     first = states(4, 3)
@@ -174,17 +168,18 @@ def test_6_is_5_drawn_smaller(capsys: Capture) -> None:
     assert [right - left for left, right in walls] == [107, 58]
 
 
-def test_7_turns_at_its_start_mark_and_a_centimetre_short_of_it_by_turns() -> None:
+def test_7_turns_at_its_start_mark_and_a_centimetre_short_of_it_alternately() -> None:
     says(7, "1.1 cm", "frame 633", "t = 2.64 s")
     turns = [round(turn, 3) for turn in turns_m(7, 60 * 240)]
     assert turns[:20] == [1.989, 2.0] * 10
     xs = [x_m for x_m, _, _ in states(7, 700)]
     assert xs.index(max(xs[400:])) + 1 == 633
     assert round(633 / 240, 2) == 2.64
+    assert 0.011 < 1 / 55  # a column
 
 
 def test_8_turns_12_cm_short_of_its_start_mark_every_other_time() -> None:
-    says(8, "1.88 m", "12 cm", "1 cm", "26 cm", "14 cm", "38 cm", "0.2 m/s")
+    says(8, "1.88 m", "12 cm", "1 cm", "26 cm", "14 cm, then 38 cm, then 14 cm again")
     turns = turns_m(8, 600)
     assert len(turns) > 20
     assert {round(turn, 2) for turn in turns[::2]} == {1.88}
@@ -210,7 +205,7 @@ def test_9_turns_elsewhere_each_time_and_later_beyond_the_start_mark() -> None:
 
 @pytest.mark.parametrize("number", [10, 11])
 def test_10_and_11_are_drawn_on_their_start_mark_at_every_turn(number: int) -> None:
-    assert "frame 14" in EXAMPLES[10].look_for
+    assert "press it fourteen times" in EXAMPLES[10].look_for
     assert [mark_m is not None for _, _, mark_m in states(10, 14)] == [False] * 13 + [True]
     turns = turns_m(number, 6000)
     assert len(turns) > 200
@@ -246,7 +241,7 @@ def test_13_turns_higher_than_the_truth_before_any_collision(shift: float) -> No
 @pytest.mark.parametrize("shift", [-1e-3, 0, 1e-3])
 def test_17_is_exact_until_its_first_bounce_and_gains_energy_at_the_left_wall(
         shift: float) -> None:
-    says(17, "frame 14", "1.8 m", "0 and +2")
+    says(17, "frame 14", "1.8 m")
     found = beside_the_truth(17, 200, shift)
     assert apart_m(found[:13]) < 1e-12 < apart_m(found[:14])
     assert apart_m(found) == pytest.approx(1.8, abs=0.05)
@@ -291,12 +286,14 @@ def test_the_hops_of_19_and_20_are_counted_for_other_methods_too(
     settings = EXAMPLES[number].settings | {"motion": motion, "correction": correction}
     shifted = {"x_m": settings["x_m"] * (1 + of_x), "v_mps": settings["v_mps"] * (1 + of_v)}
     assert lines_between_bounces(Scene(**settings | shifted), 400)[:len(lines)] == lines
-    says(19, "15, 14, 13 ...", "2 and 1", "-2", "+1", "forward +2", "rebound +2", "frame 134")
-    says(20, "14, 12, 10, 9", "0.8 (9 + 1) + 1 = 9", "80 %", "-2 + 1")
 
 
 def test_20_hops_9_lines_or_about_as_many_and_the_truth_lies_still() -> None:
-    says(20, "20 cm", "7.05 s")
+    says(19, "15, 14, 13 ...", "2 and 1", "two lines shorter", "one line longer", "frame 134")
+    says(20, "14, 12, 10", "frame 48", "t = 4.8 s", "9 for ever", "0.8 (9 + 1) + 1 = 9", "80 %",
+         "-1 + 1 before and -1 after", "20 cm", "7.05 s")
+    bounces = [n for n, (_, _, mark_m) in enumerate(states(20, 57), 1) if mark_m is not None]
+    assert bounces == [12, 26, 38, 48, 57]
     assert pytest.approx(0.20, abs=0.005) == 2 * (9 * 0.1)**2 / 8
     for fps in (30, 60, 120):
         scene = Scene(**EXAMPLES[20].settings | {"fps_target": fps})
@@ -306,7 +303,7 @@ def test_20_hops_9_lines_or_about_as_many_and_the_truth_lies_still() -> None:
     assert step(truth, truth.x_m, truth.v_mps, 7.06)[:2] == (0.25, 0.0)
 
 
-def test_14_is_thrown_out_to_the_left_and_to_the_right_by_turns(capsys: Capture) -> None:
+def test_14_is_thrown_out_to_the_left_and_to_the_right_alternately(capsys: Capture) -> None:
     says(14, "4.1 m", "1.2 km")
     xs = [x_m for x_m, _, _ in states(14, 600)]
     assert all(x_m < 0.25 or x_m > 2.2 for x_m in xs)

@@ -38,5 +38,5 @@ def test_the_console_gives_its_keys_and_no_arrows_and_a_pipe_has_none(
     module = windows(monkeypatch, is_console)
     module.msvcrt.typed.extend(typed)
     with module.taken_keys() as taken:
-        assert taken.where() == ("in this terminal" if is_console else "")
+        assert taken.where() == ("here" if is_console else "")
         assert taken.terminal.read() == keys
