@@ -45,6 +45,8 @@ from examples import EXAMPLES, OWN_SCENE, Keys, taken_keys
 # v changes during the frame. Euler's methods hold it constant: forward takes the frame's first v,
 # backward (for a constant a the same as semi-implicit Euler) its last. Both are of first order:
 # half the dt, half the error after a given time. exact has no error at any dt, for a constant a.
+# Yet Euler's points lie on a true flight: they move on by its mean velocity, which it has in
+# mid-frame. So forward's v is that of half a frame later, backward's that of half a frame earlier.
 # E = v^2/2 - a x is the car's energy per kilogram. In free flight it should not change.
 
 State = tuple[float, float]  # x_m, v_mps
@@ -80,8 +82,8 @@ def none(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> S
 
     The step out may be shorter than the step in: if CR < 1, if backward is pulled into the wall, or
     if forward is pulled off it. Then v is reversed again, into the wall, and so on: it is caught.
-    If CR < 1, v converges. Under a pull into the wall backward then sinks by g dt^2/(1 + CR) a
-    frame (example 3), exact sinks more slowly, and forward creeps out and hops on.
+    If CR < 1, v tends to CR g dt/(1 + CR) off the wall. With g > 0 backward then sinks by
+    g dt^2/(1 + CR) a frame (example 3), exact sinks more slowly, and forward creeps out and hops.
     """
     return x_m, -CR * v_mps
 
@@ -97,9 +99,9 @@ def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -
     overlap_m = x_m - wall_m
     return wall_m - CR * overlap_m, -CR * v_mps
 
-# The law of the hops explains chart and stability map. A car that is pulled to a wall hops on it.
-# Each hop, from the wall back to the wall, should last CR times as long as the one before. With
-# these three corrections it lasts, in frames and on average,
+# The law of the hops explains chart and map (sections 8, 9). A car that is pulled to a wall hops on
+# it, and each hop should last CR times as long as the one before. With these three corrections a
+# hop, from the wall back to the wall, is followed by one of, in frames and on average,
 #     hop' = CR (hop + before) + after
 # before is the motion's entry plus the correction's, and so is after:
 #                before  after                    before  after
@@ -108,19 +110,18 @@ def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -
 #     backward     -1     -1         rebound        +1     +1
 # Why? A car that leaves the wall at w is back after 2 w/(g dt) frames: g dt/2 more speed makes one
 # frame more. Speed gained before the bounce counts CR times, speed gained after it counts whole.
-# The motion. Euler's points lie on a true flight, of which v is the speed in mid-frame. So forward's
-# v is half a frame ahead: g dt/2 too large on the way down: before +1; g dt/2 too small on the way
-# up, so the car flies faster than v: after +1. backward's v is half a frame behind: -1 and -1.
+# The motion. By forward v is that of half a frame later: g dt/2 too large on the way down, before
+# +1; g dt/2 too small on the way up, where the flight is faster, after +1. By backward -1 and -1.
 # The correction. A bounce is found at its frame's end, s frames late: 0 to 1, 1/2 on average. Until
 # then the pull goes on, and makes the car s g dt too fast: before 2 s = +1. surface then starts it
 # from the wall: after 0. rebound gives it s frames of flight without the pull: after 2 s = +1. With
-# none the car first flies out of the wall, for s/CR frames under the pull: after -2 s/CR. If s > CR
-# one frame is too short: it is caught. So s is 0 to CR, CR/2 on average: before +CR, after -1.
-# Where it leads. At CR = 1 each hop is before + after longer than the last: hops grow up to the
-# other wall or, if that is negative, shrink to rest. At CR < 1 a hop repeats itself if it lasts
-# n = (CR before + after)/(1 - CR) frames. Hops end near n, at any frame rate; if n is negative, at
-# rest. (With none, at rest means caught.) At 0, and in how near n, each hop's own s decides: luck.
-# The law is for frames of one length, and for hops of more than a few.
+# none it takes s/CR frames to get out, under the pull: after -2 s/CR. If s > CR, one frame is too
+# short, and it is caught; otherwise s is 0 to CR, CR/2 on average: before +CR, after -1.
+# Where it leads. At CR = 1 each hop is before + after longer than the last. If that is positive,
+# hops grow up to the other wall; if negative, they shrink to rest. At CR < 1 a hop repeats itself
+# if it lasts n = (CR before + after)/(1 - CR) frames. Hops end near n, at any frame rate; if n is
+# negative, at rest. If sum or n is 0, luck decides: each bounce's own s. (With none, at rest means
+# caught, and exact repeats each hop.) Frames of one length, and hops of more than a few, obey.
 
 def arrival(d_m: float, u_mps: float, a_mps2: float) -> tuple[float, float]:
     """How long to a wall d_m ahead, and how fast there: t_s, w_mps. u and a are + towards it."""
@@ -141,8 +142,7 @@ def rewind(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) ->
     side = math.copysign(1, x_m - wall_m)  # 1 beyond the right wall, -1 beyond the left one
     t_s, w_mps = arrival(abs(x_m - wall_m), side * v_mps, -side * a_mps2)
     x_m, v_mps = exact(wall_m, -side * CR * w_mps, a_mps2, t_s)
-    is_beyond = side * (x_m - wall_m) > 0  # again: it has not settled a second bounce
-    return (wall_m if is_beyond else x_m), v_mps
+    return (wall_m if side * (x_m - wall_m) > 0 else x_m), v_mps  # beyond again: a second bounce
 
 CORRECTIONS = {"none": none, "surface": surface, "rebound": rebound, "rewind": rewind,
                "replay": None}  # replay does not correct the move: it replaces it, in step
@@ -214,9 +214,9 @@ def replay(scene: Scene, x_m: float, v_mps: float, t_s: float) -> State:
 
     Right for any frame, with several bounces (example 15) or infinitely many. Think of a ball in a
     room: gravity pulls it to the floor (without a pull, the left wall), h is its height. The loop
-    ends: each trip to the ceiling takes time, and without one hops takes over. A ball that would
-    pass the ceiling by under GRAZE_M misses it: v^2 goes as the height to go, so 1e-16 in h is 1e-8
-    in v. Each miss shifts the car by up to 4 sqrt(room GRAZE_M), by default 4e-5 m.
+    ends: trips to the ceiling take time, and without one hops() ends it. A ball that would pass the
+    ceiling by less than GRAZE_M misses it, as 1e-16 in h would be 1e-8 in v. That shifts it by up
+    to 4e-5 m.
     """
     up, floor_m = (-1, scene.right_edge_m) if scene.a_mps2 > 0 else (1, scene.left_edge_m)
     room_m, g_mps2, CR = scene.right_edge_m - scene.left_edge_m, abs(scene.a_mps2), scene.CR
