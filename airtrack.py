@@ -45,8 +45,8 @@ from examples import EXAMPLES, OWN_SCENE, Keys, taken_keys
 # v changes during the frame. Euler's methods hold it constant: forward takes the frame's first v,
 # backward (for a constant a the same as semi-implicit Euler) its last. Both are of first order:
 # half the dt, half the error after a given time. exact has no error at any dt, for a constant a.
-# Yet Euler's points lie on a true flight: they move on by its mean velocity, which it has in
-# mid-frame. So forward's v is that of half a frame later, backward's that of half a frame earlier.
+# Yet Euler's points lie on a true flight: the v of each step is that flight's mean velocity, which
+# it has in mid-step. So forward's v is half a step ahead of x, backward's is half a step behind.
 # E = v^2/2 - a x is the car's energy per kilogram. In free flight it should not change.
 
 State = tuple[float, float]  # x_m, v_mps
@@ -80,10 +80,10 @@ MOTIONS = {"forward": forward, "backward": backward, "exact": exact}  # name a n
 def none(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Reverse v, but leave the car beyond the wall: a trap.
 
-    The step out may be shorter than the step in: if CR < 1, if backward is pulled into the wall, or
-    if forward is pulled off it. Then v is reversed again, into the wall, and so on: it is caught.
-    If CR < 1, v tends to CR g dt/(1 + CR) off the wall. With g > 0 backward then sinks by
-    g dt^2/(1 + CR) a frame (example 3), exact sinks more slowly, and forward creeps out and hops.
+    The step out may be too short: CR < 1 makes it shorter; backward slows it first, if pulled into
+    the wall; forward reverses a v that is slowed, if pulled off the wall. Then v is reversed again,
+    into the wall, and so on: the car is caught. At CR < 1, pulled into the wall, backward then
+    sinks by g dt^2/(1 + CR) a frame (example 3), exact more slowly; forward creeps out and hops on.
     """
     return x_m, -CR * v_mps
 
@@ -101,7 +101,7 @@ def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -
 
 # The law of the hops explains chart and map (sections 8, 9). A car that is pulled to a wall hops on
 # it, and each hop should last CR times as long as the one before. With these three corrections a
-# hop, from the wall back to the wall, is followed by one of, in frames and on average,
+# hop, from the wall back to the wall, is followed by one of hop' frames, on average:
 #     hop' = CR (hop + before) + after
 # before is the motion's entry plus the correction's, and so is after:
 #                before  after                    before  after
@@ -110,18 +110,18 @@ def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -
 #     backward     -1     -1         rebound        +1     +1
 # Why? A car that leaves the wall at w is back after 2 w/(g dt) frames: g dt/2 more speed makes one
 # frame more. Speed gained before the bounce counts CR times, speed gained after it counts whole.
-# The motion. By forward v is that of half a frame later: g dt/2 too large on the way down, before
-# +1; g dt/2 too small on the way up, where the flight is faster, after +1. By backward -1 and -1.
-# The correction. A bounce is found at its frame's end, s frames late: 0 to 1, 1/2 on average. Until
-# then the pull goes on, and makes the car s g dt too fast: before 2 s = +1. surface then starts it
-# from the wall: after 0. rebound gives it s frames of flight without the pull: after 2 s = +1. With
-# none it takes s/CR frames to get out, under the pull: after -2 s/CR. If s > CR, one frame is too
-# short, and it is caught; otherwise s is 0 to CR, CR/2 on average: before +CR, after -1.
+# The motion. By forward v is half a frame ahead: g dt/2 too large on the way down, before +1; g dt/2
+# too small on the way up, so the car flies faster than v says, after +1. By backward -1 and -1.
+# The correction. A bounce is found at its frame's end, on average half a frame late. Until then the
+# pull makes the car g dt/2 too fast: before +1. surface then starts it from the wall: after 0.
+# rebound adds half a frame of flight without the pull: after +1. With none it flies out CR times as
+# fast as in. Only if it is found less than CR of a frame late is it out in one frame, otherwise it
+# is caught. So it is CR/2 late: before +CR; and half a frame on its way out, slowed: after -1.
 # Where it leads. At CR = 1 each hop is before + after longer than the last. If that is positive,
-# hops grow up to the other wall; if negative, they shrink to rest. At CR < 1 a hop repeats itself
-# if it lasts n = (CR before + after)/(1 - CR) frames. Hops end near n, at any frame rate; if n is
-# negative, at rest. If sum or n is 0, luck decides: each bounce's own s. (With none, at rest means
-# caught, and exact repeats each hop.) Frames of one length, and hops of more than a few, obey.
+# hops grow up to the other wall; if negative, they shrink to rest (with none, until it is caught).
+# At CR < 1 a hop repeats itself if it lasts n = (CR before + after)/(1 - CR) frames: hops settle
+# near n, at any frame rate; if n is negative, at rest. At 0 it is luck: how late each bounce is
+# found (but exact + none repeats each hop). It takes equal frames, and hops of more than a few.
 
 def arrival(d_m: float, u_mps: float, a_mps2: float) -> tuple[float, float]:
     """How long to a wall d_m ahead, and how fast there: t_s, w_mps. u and a are + towards it."""
