@@ -7,7 +7,6 @@ E is the energy v^2/2 - a x; a wall's side is -1 (left) or +1 (right); towards i
 import math
 import random
 from collections.abc import Iterator
-from itertools import pairwise
 from typing import Any
 
 import pytest
@@ -15,7 +14,6 @@ from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 from airtrack import Scene, step
-from examples import EXAMPLES
 from films import lines_between_bounces
 
 speeds = st.floats(-50, 50)
@@ -156,24 +154,6 @@ def test_hops_that_lose_speed_end_around_the_length_that_is_followed_by_itself_o
         assert n + 1 - 1e-9 <= mean <= 1.9 * n + 0.5
 
 
-@pytest.mark.parametrize(("motion", "sign", "hops"), [
-    ("forward", 1, [18, 20, 22]), ("backward", -1, [14, 12, 10])])
-def test_turned_round_as_the_true_speed_of_the_flight_euler_s_hops_last_equally_long(
-        motion: str, sign: int, hops: list[int]) -> None:
-    """The control of what the law says of the motion: by forward the true v is v - a dt/2."""
-    scene = Scene(**EXAMPLES[19].settings | {"motion": motion, "correction": "none"})
-    a, dt = -2, 0.1
-    assert lines_between_bounces(scene, 80)[:3] == hops
-    x, v, found = scene.x_m, scene.v_mps, []
-    for line in range(400):
-        x += (v if motion == "forward" else v + a * dt) * dt
-        v += a * dt
-        if x < scene.left_edge_m:
-            v = -v + sign * a * dt
-            found.append(line)
-    assert {b - a for a, b in pairwise(found)} == {16}
-
-
 # 5. Rewind. A car at a distance d from a wall, at u towards it, under an acceleration g towards it,
 #    is there after t1 at s, with s^2 = u^2 + 2 g d, and leaves it at CR s. Until a time r later it
 #    is CR s r - g r^2/2 off the wall, and rewind is right: r < 2 CR s/g, when a car that is pulled
@@ -209,17 +189,3 @@ def test_rewind_is_right_for_one_bounce_whose_move_ends_beyond_the_wall_and_wron
     else:
         assert mark_m is None
         assert side * v_mps == pytest.approx(s_mps + g_mps2 * rest_s)  # never turned round
-
-
-# 6. At CR < 1 backward + surface comes to rest from any start, whichever wall it is pulled to.
-
-def test_backward_with_surface_always_comes_to_rest() -> None:
-    rng = random.Random(1)
-    for _ in range(200):
-        scene = Scene(correction="surface", x_m=rng.uniform(0.3, 2.1), v_mps=rng.uniform(-3, 3),
-                      a_mps2=rng.choice([-1, 1]) * rng.uniform(0.5, 10), CR=rng.uniform(0.2, 0.95))
-        dt_s, wall_m = 1 / rng.uniform(5, 60), 2.2 if scene.a_mps2 > 0 else 0.25
-        x_m, v_mps = scene.x_m, scene.v_mps
-        for frame in range(3000):
-            x_m, v_mps, _ = step(scene, x_m, v_mps, dt_s)
-            assert frame < 2900 or abs(x_m - wall_m) < 1e-3
