@@ -457,7 +457,7 @@ def table(scene: Scene) -> Points:
             row += f"{error_m:9.1e}{two_digits(us):>6}"
         print(row, flush=True)
     pixel_m = 1 / scene.m_to_px
-    print(f"Within a pixel ({1000 * pixel_m:.3g} mm) in all ten runs from this rate (FPS) on:")
+    print(f"Within a pixel ({1000 * pixel_m:.3g} mm) in all ten runs from this rate on (FPS, us):")
     cells = (first_within(series, pixel_m) for series in points.values())
     print(f"    {''.join(cells)}\n")
     return points
@@ -533,8 +533,8 @@ VERDICTS = {  # from the worst to the best
     "S": "stuck: beyond the same wall all through the last 5 s",
     "W": "win or lose: some runs gain energy, others lose it; always a capital",
     "G": "gain: in the last 5 s over 1 % more energy than the true car, on average",
-    "L": "loss: over 1 % less (100 %: v^2/2 at the start + |a| * the track's length)",
-    "P": "energy within 1 %, but over a drawn pixel off; at CR < 1 it may hop still",
+    "L": "loss: over 1 % less (1 % of v^2/2 at the start + |a| * the track's length)",
+    "P": "energy within 1 %, but over a drawn pixel off; at CR < 1 it may still hop",
     "-": "within a drawn pixel of the truth at every sample",
 }
 
@@ -566,7 +566,7 @@ def cell(found: set[str]) -> str:
 def stability(scene: Scene, heading: str) -> None:
     """Print the map: a row for each method, a column for each rate, a letter for ten runs."""
     say(f"Stability. {heading} {MEASURED}")
-    print(f"\n{'FPS':20}" + "".join(f"{fps:6}" for fps in MAP_FPS))
+    print(f"\n{heading.split('. ')[0]:20.20}" + "".join(f"{fps:6}" for fps in MAP_FPS), "FPS")
     for motion in MOTIONS:
         for correction in CORRECTIONS:
             if motion == "exact" or correction not in EXACT_ONLY:
@@ -578,9 +578,9 @@ def stability(scene: Scene, heading: str) -> None:
                 print(f"{f'{motion} + {correction}':20}{inked(row)}", flush=True)
     for letter, meaning in VERDICTS.items():
         print(f"{inked(letter)}  {meaning}")
-    say("From the worst to the best. A capital: all ten runs; small: some of the ten, the others "
-        "better, that is, further down. Samples: every 0.1 s, or frame if longer. At CR < 1 a G "
-        "car hops on or, at 1 or 2 FPS, lies at a wall with a large v.")
+    say("From the worst to the best. A capital: all ten runs; a small letter: some of the ten, the "
+        "others better, further down. Judged every 0.1 s, or frame if longer. At CR < 1 a G car "
+        "hops on or, at 1 or 2 FPS, lies at a wall with a large v.")
 
 
 # ==== 10. Checking a scene ======================================================================

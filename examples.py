@@ -56,8 +56,9 @@ EXAMPLES = {
         "Watch the bottom row (cover those above with paper): there the car (*) moves between its "
         "walls (|). At each bounce, say how far from the left wall it will get.",
         "It gets 0.87 m, 0.46 m, 0.21 m from the wall: each time about half as far as before. It "
-        "keeps 70 % of its speed in a bounce, and 0.7^2 = 0.49 of its energy. When it has been at "
-        "rest for a third of a second, in frame 251, the film stops by itself."),
+        "keeps 70 % of its speed in a bounce, so 0.7^2 = 0.49 of its energy. When it has been at "
+        "rest for a third of a second, in frame 251, the film stops by itself. (The word d after "
+        "an example's number, as in 1 d, adds figures to each line.)"),
     2: Example("No correction", {
         "x_m": 1.65, "v_mps": 2.7, "CR": 1.0, "correction": "none", "show_collision_mark": False},
         "Nothing puts the car back on the track after a collision. How far does it go into the "
@@ -80,14 +81,14 @@ EXAMPLES = {
         "terminal keeps the lines: what does the motion look like?",
         "Each hop is an arc, a parabola. The first ones are hundreds of lines long, the last ones "
         "draw a tail, and the film stops after 1880 frames. (As the car starts beyond the wall, "
-        "both of its first two frames are bounces: it leaves at 6.4 m/s.)"),
+        "frames 1 and 2 both reverse it: it leaves at 6.4 m/s.)"),
     5: Example("Where each collision was found", {
         "x_m": 2.0, "v_mps": 3.0, "a_mps2": 2.0, "CR": 0.7},
         "A 0 is where the move alone put the car, beyond the wall. Where is the * in the same "
         "line? Does every collision show a 0?",
-        "The * is back on the track, by 70 % of the way that it had been beyond the wall. Not each "
-        "of the 19 collisions shows a 0: most are so near the wall that it hides them. Add "
-        "fps_target=10, and each of the first five does (end that film with x)."),
+        "The rebound has put the * back on the track, by 70 % of the way that it was beyond the "
+        "wall. Not each of the 19 collisions shows a 0: most are so near the wall that its mark "
+        "hides them. Add fps_target=10, and each of the first five does (end that film with x)."),
     6: Example("Example 5 zoomed out", {
         "x_m": 2.0, "v_mps": 3.0, "a_mps2": 2.0, "CR": 0.7, "m_to_px": 30.0},
         "The drawing is smaller than in example 5. Does the motion change? Compare after how many "
@@ -97,18 +98,19 @@ EXAMPLES = {
     7: Example("Elastic, small steps", ELASTIC | {"fps_target": 240.0},
         "No speed is lost in a bounce. So the car should come back to the start mark, the dot at 2 "
         "m, every time. Does it? End the film with x.",
-        "Nearly. Its first way back ends 1.1 cm short of the mark, in frame 633 (t = 2.64 s), the "
-        "next one at the mark, and so on, alternately. 1.1 cm are less than a column: d tells."),
+        "Nearly: it turns 1.1 cm short of the mark, first in frame 633 (t = 2.64 s), the next time "
+        "at the mark, and so on, alternately. That is less than a column, but d tells."),
     8: Example("Elastic, large steps", COARSE,
         "Example 7 at 10 FPS: the car moves up to 0.26 m in a frame. How near to the start mark "
         "does it come back? Watch four times, then press x.",
         "It comes back to 1.88 m, 12 cm short of the mark, then to the mark, and so on, "
-        "alternately. Backward Euler costs 1 cm of height a frame, 26 cm in fall and rise. The "
-        "rebound lifts the car from beyond the wall to as far off it, and does not slow it. So it "
-        "gives back twice the overlap: 14 cm, then 38 cm, then 14 cm again."),
+        "alternately. Backward Euler loses 1 cm of the way in each frame, 26 cm from the mark to "
+        "the wall and back. The rebound puts the car as far off the wall as it was beyond it, but "
+        "does not slow it. So it gives back twice that distance: 14 cm, then 38 cm, then 14 cm "
+        "again."),
     9: Example("Elastic, large and irregular steps", COARSE | IRREGULAR,
-        "Example 8 with frames up to a quarter longer or shorter: each sets the next one's time "
-        "step. How near the start mark does it come? Press x after 30 s.",
+        "Example 8 with irregular frames: each is up to a quarter longer or shorter. How near to "
+        "the start mark does it come back? Press x after 30 s.",
         "The errors of the bounces are irregular too. So the car turns elsewhere each time: first "
         "at 1.81 m, and after about half a minute beyond the start mark as well. It wanders."),
     10: Example("The exact solution", EXACT,
@@ -125,15 +127,15 @@ EXAMPLES = {
     12: Example("The exact solution, losing energy", EXACT | IRREGULAR | {"CR": 0.8},
         "Example 11, but the car keeps 80 % of its speed at each bounce, and the bounces come "
         "faster and faster. How many are there before it is at rest?",
-        "Infinitely many, and all before t = 11.91 s: the Zeno point. Rewind settles one bounce a "
-        "frame. So the car hops on, at last seen only by a 0, until the film ends in frame 130. "
-        "Yet rewind is all that this scene needs: it is up to 4 mm off in this film, less than a "
-        "quarter of a column. With correction=replay it is at rest in frame 122."),
+        "Infinitely many, and all before t = 11.91 s: the Zeno point. But rewind can settle only "
+        "one bounce a frame. So the car hops on, at last seen only by a 0, until the film ends in "
+        "frame 130. Yet rewind is all that this scene needs: it is up to 4 mm off in this film, "
+        "less than a quarter of a column. With correction=replay it is at rest in frame 122."),
     13: Example("Forward Euler beside the truth", {
         "x_m": 0.25, "v_mps": 2.48, "a_mps2": -2.0, "CR": 1.0, "motion": "forward",
         "fps_target": 10.0, "show_exact_mark": True},
-        "The * is moved by forward Euler, the o is the true car. Which climbs higher, before "
-        "either meets a wall? See both turn, then press x.",
+        "The * is moved by forward Euler, the o is the true car. Which gets further to the right, "
+        "before either meets a wall? See both turn, then press x.",
         "The * turned at 1.91 m, in frame 13, the o at 1.79 m, and neither had met a wall. Forward "
         "Euler moves the car at the velocity of the frame's start: too fast on the way up, too "
         "slow on the way down. Each step adds a^2 dt^2/2 = 0.02 m^2/s^2 to the energy v^2/2 - a x. "
@@ -173,30 +175,29 @@ EXAMPLES = {
         "and what does the *? End the film with x.",
         "In frame 3 the o has bounced off the right wall, the * turned without a bounce. In frame "
         "4 they are about 0.4 m apart. The move of frame 3 goes 1 cm beyond the wall and ends back "
-        "on the track, so no collision is found: a missed event. Any solver that looks for a "
-        "change of sign over a step may miss one, scipy's too. With correction=replay the * stays "
-        "on the o."),
+        "on the track, so no collision is found: a missed event. Any method that looks only at the "
+        "two ends of a step may miss one. With correction=replay the * stays on the o."),
     19: Example("Elastic hops, counted", {
         "x_m": 0.84, "v_mps": 0.098, "a_mps2": -2.0, "CR": 1.0, "correction": "surface",
         "fps_target": 10.0, "show_exact_mark": True},
         "Nothing is lost in a bounce: the o bounces on for ever. And the *? Count its hops, in "
-        "lines. (With d: at a bounce v turns positive.)",
+        "lines. (d shows v, which turns positive at a bounce.)",
         "The hops of the * take 15, 14, 13 ... lines, down to 2 and 1, which are too low to see. "
         "In frame 134 it is at rest. Backward Euler makes each hop two lines shorter than the one "
-        "before, surface makes it one line longer. Forward makes it two longer, and so does "
-        "rebound; exact and none change nothing. Predict the eight other pairs, then count until "
-        "the * meets the right wall: add motion=exact, for one."),
+        "before, surface makes it one line longer. Now predict the eight other pairs: forward "
+        "makes it two lines longer, so does rebound, exact and none change nothing. Then count "
+        "until the * meets the right wall: add motion=exact, for one."),
     20: Example("Hops that lose speed, counted", {
         "x_m": 0.66, "v_mps": 0.75, "a_mps2": -2.0, "CR": 0.8, "motion": "exact",
         "fps_target": 10.0, "show_exact_mark": True},
         "Each bounce takes 20 % of the speed. Which comes to rest, o or *, and when? Count the "
         "hops of the * as in example 19. End with x.",
-        "The o lies still from t = 7.05 s on, its Zeno point, hidden by the wall. The hops of the "
-        "* take 14, 12, 10 lines and, from frame 48 on (t = 4.8 s), 9 for ever, 20 cm high. The "
-        "rebound adds one line before the bounce, which keeps 80 %, and one after it: 9 is "
-        "followed by 0.8 (9 + 1) + 1 = 9. At a higher rate the hops end at about as many lines, so "
-        "they are lower. With motion=backward correction=surface, -1 + 1 before and -1 after, the "
-        "* comes to rest."),
+        "The hops of the * take 14, 12, 10 lines and, from frame 48 on (t = 4.8 s), 9 for ever, 20 "
+        "cm high: the rebound adds what the bounce takes. It adds one line before the bounce, "
+        "which keeps 80 %, and one line after it: 0.8 (9 + 1) + 1 = 9. The o lies still from t = "
+        "7.05 s on, its Zeno point, hidden by the wall. At a higher rate the hops end at about as "
+        "many lines, so they are lower. With motion=backward correction=surface the * comes to "
+        "rest: -1 + 1 lines before, -1 after."),
 }
 OWN_SCENE = Example("Your own scene", {},
     "How far does the car get from each wall? Does it come to rest?",

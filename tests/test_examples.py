@@ -291,7 +291,7 @@ def test_the_hops_of_19_and_20_are_counted_for_other_methods_too(
 def test_20_hops_9_lines_or_about_as_many_and_the_truth_lies_still() -> None:
     says(19, "15, 14, 13 ...", "2 and 1", "two lines shorter", "one line longer", "frame 134")
     says(20, "14, 12, 10", "frame 48", "t = 4.8 s", "9 for ever", "0.8 (9 + 1) + 1 = 9", "80 %",
-         "-1 + 1 before and -1 after", "20 cm", "7.05 s")
+         "-1 + 1 lines before, -1 after", "20 cm", "7.05 s")
     bounces = [n for n, (_, _, mark_m) in enumerate(states(20, 57), 1) if mark_m is not None]
     assert bounces == [12, 26, 38, 48, 57]
     assert pytest.approx(0.20, abs=0.005) == 2 * (9 * 0.1)**2 / 8
