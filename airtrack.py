@@ -45,8 +45,8 @@ from examples import EXAMPLES, OWN_SCENE, Keys, taken_keys
 # v changes during the frame. Euler's methods hold it constant: forward takes the frame's first v,
 # backward (for a constant a the same as semi-implicit Euler) its last. Both are of first order:
 # half the dt, half the error after a given time. exact has no error at any dt, for a constant a.
-# Yet Euler's points lie on a true flight: each step's v is that flight's mean velocity, the one in
-# mid-step. So forward's v is half a step ahead of x, backward's is half a step behind.
+# Yet Euler's x lie on a true flight, and the v of a step is that flight's velocity in mid-step. So
+# forward's v is half a step ahead of x, backward's is half a step behind.
 # E = v^2/2 - a x is the car's energy per kilogram. In free flight it should not change.
 
 State = tuple[float, float]  # x_m, v_mps
@@ -80,8 +80,8 @@ MOTIONS = {"forward": forward, "backward": backward, "exact": exact}  # name a n
 def none(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Reverse v, but leave the car beyond the wall: a trap.
 
-    The step out may be too short: CR < 1 makes it shorter; backward slows it first, if pulled into
-    the wall; forward reverses its new, slowed v, if pulled off it. Then v is reversed once more,
+    The step out may be too short: CR < 1 makes it shorter; backward, if pulled into the wall, slows
+    it first; forward, if pulled off the wall, reverses a slowed v. Then v is reversed once more,
     into the wall, and so on: the car is caught. At CR < 1, pulled into the wall, backward then
     sinks by g dt^2/(1 + CR) a frame (example 3), exact more slowly; forward creeps out and hops on.
     """
@@ -110,17 +110,17 @@ def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -
 #     backward     -1     -1         rebound        +1     +1
 # Why? A car that leaves the wall at w is back after 2 w/(g dt) frames: g dt/2 more speed makes one
 # frame more. Speed gained before the bounce counts CR times, speed gained after it counts whole.
-# The motion. By forward v is half a frame ahead: on the way down g dt/2 too large, before +1; on
-# the way up the car is g dt/2 faster than v says, after +1. By backward the reverse: -1 and -1.
+# The motion. By forward v is half a frame ahead: on the way down it is g dt/2 too fast, before +1;
+# on the way up g dt/2 too slow, so the car is faster than v, after +1. By backward the reverse.
 # The correction. A bounce is found at its frame's end, on average half a frame late. Until then the
 # pull makes the car g dt/2 too fast: before +1. surface then starts it from the wall: after 0.
-# rebound's half frame of flight lacks the pull, g dt/2: after +1. By none it flies out CR times as
-# fast as in: found less than CR of a frame late, it is out in one frame, else caught. So it is CR/2
-# late on average, before +CR, and (CR/2)/CR = 1/2 frame on its way out, slowed: after -1.
+# rebound's half frame of flight lacks the pull, g dt/2: after +1. By none the way out takes 1/CR of
+# the time that the car was late. If that is over a frame, it is caught; if not, it was CR/2 late on
+# average, before +CR, and on its way out it is slowed for half a frame, after -1.
 # Where it leads. At CR = 1 each hop is before + after longer than the last. If that is positive,
 # hops grow up to the other wall; if negative, they shrink to rest (with none, until it is caught).
 # At CR < 1 a hop repeats itself if it lasts n = (CR before + after)/(1 - CR) frames: hops settle
-# near n, at any frame rate; if n is negative, at rest. If sum or n is 0, it is luck: how late each
+# near n frames, at any dt; if n is negative, at rest. If sum or n is 0, luck decides: how late each
 # bounce is found (but exact + none repeats hops). The law needs equal frames, and many in a hop.
 
 def arrival(d_m: float, u_mps: float, a_mps2: float) -> tuple[float, float]:

@@ -295,7 +295,7 @@ def test_a_cell_is_the_worst_of_the_cuts_and_small_where_only_some_are_so_bad(
 def test_the_map_has_the_letters_of_a_plain_retelling(example: int, CR: float) -> None:
     rates, *lines = printed("stability", str(example)).split("\n\n")[1].splitlines()
     assert rates.split("scene")[0] == f"Example {example}'s "
-    assert rates.split()[3:] == "1 2 5 10 30 60 120 240 1000 FPS".split()
+    assert rates.split()[3:] == ["1", "2", "5", "10", "30", "60", "120", "240", "1000", "FPS"]
     assert len(lines) <= 21  # with rates and a last line 23, and the shell's prompt: one screen
     rows, legend = lines[:11], lines[11:18]
     assert [line[:3] for line in legend] == [f"{letter}  " for letter in "XSWGLP-"]
