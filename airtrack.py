@@ -45,8 +45,8 @@ from examples import EXAMPLES, OWN_SCENE, Keys, taken_keys
 # v changes during the frame. Euler's methods hold it constant: forward takes the frame's first v,
 # backward (for a constant a the same as semi-implicit Euler) its last. Both are of first order:
 # half the dt, half the error after a given time. exact has no error at any dt, for a constant a.
-# Yet Euler's x lie on a true flight, and the v of a step is that flight's velocity in mid-step. So
-# forward's v is half a step ahead of x, backward's is half a step behind.
+# Yet Euler's positions lie on some true flight: the v that a step uses is the one that this flight
+# has in mid-step. So forward's v is half a step ahead of x, backward's is half a step behind.
 # E = v^2/2 - a x is the car's energy per kilogram. In free flight it should not change.
 
 State = tuple[float, float]  # x_m, v_mps
@@ -80,10 +80,10 @@ MOTIONS = {"forward": forward, "backward": backward, "exact": exact}  # name a n
 def none(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Reverse v, but leave the car beyond the wall: a trap.
 
-    The step out may be too short: CR < 1 makes it shorter; backward, if pulled into the wall, slows
-    it first; forward, if pulled off the wall, reverses a slowed v. Then v is reversed once more,
-    into the wall, and so on: the car is caught. At CR < 1, pulled into the wall, backward then
-    sinks by g dt^2/(1 + CR) a frame (example 3), exact more slowly; forward creeps out and hops on.
+    The step out may be too short: CR < 1 makes it shorter; backward, pulled into the wall, slows v
+    first; forward, pulled off the wall, reverses a v already reduced. Then v is reversed once more,
+    into the wall, and so on: the car is caught. At CR < 1, if g > 0, backward then sinks by
+    g dt^2/(1 + CR) a frame (example 3), exact more slowly; forward creeps out and hops on.
     """
     return x_m, -CR * v_mps
 
@@ -110,18 +110,18 @@ def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -
 #     backward     -1     -1         rebound        +1     +1
 # Why? A car that leaves the wall at w is back after 2 w/(g dt) frames: g dt/2 more speed makes one
 # frame more. Speed gained before the bounce counts CR times, speed gained after it counts whole.
-# The motion. By forward v is half a frame ahead: on the way down it is g dt/2 too fast, before +1;
-# on the way up g dt/2 too slow, so the car is faster than v, after +1. By backward the reverse.
+# The motion. By forward v is half a frame ahead: going down it is g dt/2 too large, before +1;
+# going up the car flies g dt/2 faster than v says, after +1. By backward the reverse: -1 and -1.
 # The correction. A bounce is found at its frame's end, on average half a frame late. Until then the
 # pull makes the car g dt/2 too fast: before +1. surface then starts it from the wall: after 0.
-# rebound's half frame of flight lacks the pull, g dt/2: after +1. By none the way out takes 1/CR of
-# the time that the car was late. If that is over a frame, it is caught; if not, it was CR/2 late on
-# average, before +CR, and on its way out it is slowed for half a frame, after -1.
+# rebound's half frame of flight lacks the pull, g dt/2: after +1. By none a car t frames late needs
+# t/CR frames to get out. Over 1, it is caught; otherwise t is 0 to CR, CR/2 on average: before +CR.
+# Then it needs half a frame on average, in which the pull slows it: after -1.
 # Where it leads. At CR = 1 each hop is before + after longer than the last. If that is positive,
 # hops grow up to the other wall; if negative, they shrink to rest (with none, until it is caught).
 # At CR < 1 a hop repeats itself if it lasts n = (CR before + after)/(1 - CR) frames: hops settle
-# near n frames, at any dt; if n is negative, at rest. If sum or n is 0, luck decides: how late each
-# bounce is found (but exact + none repeats hops). The law needs equal frames, and many in a hop.
+# near n frames, at any dt; if n is negative, at rest. If that sum or n is 0, luck decides: how late
+# each bounce is found (but exact + none repeats hops). It needs equal frames, and many in a hop.
 
 def arrival(d_m: float, u_mps: float, a_mps2: float) -> tuple[float, float]:
     """How long to a wall d_m ahead, and how fast there: t_s, w_mps. u and a are + towards it."""
@@ -203,7 +203,7 @@ def step(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> tuple[float, fl
     # A move that ends on the track can have been beyond a wall only if v has changed its sign.
     if not correction and (is_beyond or v_mps * free_mps < 0):
         x_m, v_mps = replay(scene, x_m, v_mps, dt_s)
-        is_bounce = is_beyond or v_mps != free_mps  # without one v is the move's, exactly
+        is_bounce = is_beyond or v_mps != free_mps  # without one v is exactly the move's
         return x_m, v_mps, (free_m if is_bounce else None)
     return free_m, free_mps, None
 
@@ -214,7 +214,7 @@ def replay(scene: Scene, x_m: float, v_mps: float, t_s: float) -> State:
 
     Right for any frame, with several bounces (example 15) or infinitely many. Think of a ball in a
     room: gravity pulls it to the floor (without a pull, the left wall), h is its height. The loop
-    ends: trips to the ceiling take time, and without one hops() ends it. A ball that would pass the
+    ends: trips to the ceiling take time, and with none hops() ends it. A ball that would pass the
     ceiling by less than GRAZE_M misses it: 1e-16 off in h is 1e-8 off in v. A miss shifts it by up
     to 4e-5 m.
     """
@@ -328,8 +328,8 @@ def truth_of(scene: Scene) -> Scene:
 def is_at_rest(scene: Scene, v_mps: float, recent_m: deque[float]) -> bool:
     """Whether the car rests against the wall that it is pulled to or, without a pull, against any.
 
-    In recent frames its mean distance from the wall is at most 1 mm, and its v is no more than the
-    pull changes in that time. (By Euler's methods a car that leans on a wall may have some v.)
+    In recent frames its mean distance from the wall is at most 1 mm, and its v is at most what the
+    pull adds in that time. (By Euler's methods a car that leans on a wall may have some v.)
     """
     is_held = abs(v_mps) <= abs(scene.a_mps2) * len(recent_m) / scene.fps_target
     return len(recent_m) == recent_m.maxlen and is_held and any(
