@@ -45,8 +45,8 @@ from examples import EXAMPLES, OWN_SCENE, Keys, taken_keys
 # v changes during the frame. Euler's methods hold it constant: forward takes the frame's first v,
 # backward (for a constant a the same as semi-implicit Euler) its last. Both are of first order:
 # half the dt, half the error after a given time. exact has no error at any dt, for a constant a.
-# Yet Euler's positions lie on some true flight: the v that a step uses is the one that this flight
-# has in mid-step. So forward's v is half a step ahead of x, backward's is half a step behind.
+# Yet Euler's positions lie on a true flight, whose v in mid-step is the v that the step uses. So
+# forward's v is half a step ahead of x, backward's is half a step behind.
 # E = v^2/2 - a x is the car's energy per kilogram. In free flight it should not change.
 
 State = tuple[float, float]  # x_m, v_mps
@@ -81,9 +81,9 @@ def none(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> S
     """Reverse v, but leave the car beyond the wall: a trap.
 
     The step out may be too short: CR < 1 makes it shorter; backward, pulled into the wall, slows v
-    first; forward, pulled off the wall, reverses a v already reduced. Then v is reversed once more,
-    into the wall, and so on: the car is caught. At CR < 1, if g > 0, backward then sinks by
-    g dt^2/(1 + CR) a frame (example 3), exact more slowly; forward creeps out and hops on.
+    first; forward, pulled off the wall, enters with more v than it reverses. Still beyond, v is
+    reversed again, into the wall, and so on: the car is caught. At CR < 1, if g > 0, backward then
+    sinks by g dt^2/(1 + CR) a frame (example 3), exact more slowly; forward creeps out and hops on.
     """
     return x_m, -CR * v_mps
 
@@ -115,13 +115,13 @@ def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -
 # The correction. A bounce is found at its frame's end, on average half a frame late. Until then the
 # pull makes the car g dt/2 too fast: before +1. surface then starts it from the wall: after 0.
 # rebound's half frame of flight lacks the pull, g dt/2: after +1. By none a car t frames late needs
-# t/CR frames to get out. Over 1, it is caught; otherwise t is 0 to CR, CR/2 on average: before +CR.
+# t/CR frames to get out. If t > CR, it is caught; otherwise t is CR/2 on average: before +CR.
 # Then it needs half a frame on average, in which the pull slows it: after -1.
 # Where it leads. At CR = 1 each hop is before + after longer than the last. If that is positive,
 # hops grow up to the other wall; if negative, they shrink to rest (with none, until it is caught).
 # At CR < 1 a hop repeats itself if it lasts n = (CR before + after)/(1 - CR) frames: hops settle
 # near n frames, at any dt; if n is negative, at rest. If that sum or n is 0, luck decides: how late
-# each bounce is found (but exact + none repeats hops). It needs equal frames, and many in a hop.
+# each bounce is found (exact + none repeats hops). The law needs equal frames, and many in a hop.
 
 def arrival(d_m: float, u_mps: float, a_mps2: float) -> tuple[float, float]:
     """How long to a wall d_m ahead, and how fast there: t_s, w_mps. u and a are + towards it."""
@@ -214,7 +214,7 @@ def replay(scene: Scene, x_m: float, v_mps: float, t_s: float) -> State:
 
     Right for any frame, with several bounces (example 15) or infinitely many. Think of a ball in a
     room: gravity pulls it to the floor (without a pull, the left wall), h is its height. The loop
-    ends: trips to the ceiling take time, and with none hops() ends it. A ball that would pass the
+    ends: trips to the ceiling take time, and without any hops() ends it. A ball that would pass the
     ceiling by less than GRAZE_M misses it: 1e-16 off in h is 1e-8 off in v. A miss shifts it by up
     to 4e-5 m.
     """
