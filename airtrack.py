@@ -216,7 +216,7 @@ def replay(scene: Scene, x_m: float, v_mps: float, t_s: float) -> State:
     room: gravity pulls it to the floor (without a pull, the left wall), h is its height. The loop
     ends: trips to the ceiling take time, and without any hops() ends it. A ball that would pass the
     ceiling by less than GRAZE_M misses it: 1e-16 off in h is 1e-8 off in v. A miss shifts it by up
-    to 4e-5 m.
+    to 4e-5 m, by default: 4 sqrt(room GRAZE_M).
     """
     up, floor_m = (-1, scene.right_edge_m) if scene.a_mps2 > 0 else (1, scene.left_edge_m)
     room_m, g_mps2, CR = scene.right_edge_m - scene.left_edge_m, abs(scene.a_mps2), scene.CR

@@ -86,15 +86,16 @@ EXAMPLES = {
         "x_m": 2.0, "v_mps": 3.0, "a_mps2": 2.0, "CR": 0.7},
         "A 0 is where the move alone put the car, beyond the wall. Where is the * in the same "
         "line? Does every collision show a 0?",
-        "The rebound has put the * back on the track, by 70 % of the way that it was beyond the "
-        "wall. Not each of the 19 collisions shows a 0: most are so near the wall that its mark "
-        "hides them. Add fps_target=10, and each of the first five does (end that film with x)."),
+        "The rebound has put the * back on the track, 70 % as far off the wall as it was beyond "
+        "it: often that is still the wall's column. Not each of the 19 collisions shows a 0: the "
+        "wall's mark hides the others. Add fps_target=10, and each of the first five does (end "
+        "that film with x)."),
     6: Example("Example 5 zoomed out", {
         "x_m": 2.0, "v_mps": 3.0, "a_mps2": 2.0, "CR": 0.7, "m_to_px": 30.0},
         "The drawing is smaller than in example 5. Does the motion change? Compare after how many "
         "frames the film stops.",
-        "Only the drawing changes: it is 30/55 as wide. With d the figures are those of example 5, "
-        "and the film stops after 236 frames again."),
+        "Only the drawing changes: it is about half as wide (30/55). With d the figures are those "
+        "of example 5, and the film stops after 236 frames again."),
     7: Example("Elastic, small steps", ELASTIC | {"fps_target": 240.0},
         "No speed is lost in a bounce. So the car should come back to the start mark, the dot at 2 "
         "m, every time. Does it? End the film with x.",
@@ -104,10 +105,10 @@ EXAMPLES = {
         "Example 7 at 10 FPS: the car moves up to 0.26 m in a frame. How near to the start mark "
         "does it come back? Watch four times, then press x.",
         "It comes back to 1.88 m, 12 cm short of the mark, then to the mark, and so on, "
-        "alternately. Backward Euler loses 1 cm of the way in each frame, 26 cm from the mark to "
-        "the wall and back. The rebound puts the car as far off the wall as it was beyond it, but "
-        "does not slow it. So it gives back twice that distance: 14 cm, then 38 cm, then 14 cm "
-        "again."),
+        "alternately. Backward Euler takes 1 cm of the way in each frame, 26 cm there and back. "
+        "The rebound puts the car as far off the wall as it was beyond it, and does not slow it: "
+        "so it gives back twice that distance, 14 cm, 12 too few, then 38 cm, 12 too many, then 14 "
+        "cm again."),
     9: Example("Elastic, large and irregular steps", COARSE | IRREGULAR,
         "Example 8 with irregular frames: each is up to a quarter longer or shorter. How near to "
         "the start mark does it come back? Press x after 30 s.",
@@ -115,7 +116,7 @@ EXAMPLES = {
         "at 1.81 m, and after about half a minute beyond the start mark as well. It wanders."),
     10: Example("The exact solution", EXACT,
         "Only 10 FPS, but exact formulas. How near to the start mark does the car come back? Begin "
-        "with s, and press it fourteen times to see the first bounce.",
+        "with s, press it fourteen times to see the first bounce, then p.",
         "The car moves by the formulas of kinematics, and each bounce is worked out at its own "
         "moment. (The 0 in frame 14 is where the move alone had put it.) So it comes back to the "
         "start mark, the dot at 2 m, every time. In example 8 it does not."),
@@ -137,12 +138,12 @@ EXAMPLES = {
         "The * is moved by forward Euler, the o is the true car. Which gets further to the right, "
         "before either meets a wall? See both turn, then press x.",
         "The * turned at 1.91 m, in frame 13, the o at 1.79 m, and neither had met a wall. Forward "
-        "Euler moves the car at the velocity of the frame's start: too fast on the way up, too "
-        "slow on the way down. Each step adds a^2 dt^2/2 = 0.02 m^2/s^2 to the energy v^2/2 - a x. "
+        "Euler moves the car at the velocity of the frame's start: too fast on the way out, too "
+        "slow on the way back. Each step adds a^2 dt^2/2 = 0.02 m^2/s^2 to the energy v^2/2 - a x. "
         "With motion=exact the * stays with the o until they meet the wall, in frame 25."),
     14: Example("Four metres a frame", QUICK,
-        "The car moves 4 m a frame, on a track of 1.95 m. How far does it get? (< and >: out of "
-        "the picture.) End the film with x.",
+        "The car moves 4 m a frame, on a track of 1.95 m. Does it stay between the walls? (< and "
+        ">: out of the picture.) End the film with x.",
         "The rebound puts it as far off the wall as it was beyond it: beyond the far wall, out to "
         "the left (<), out to the right (>), alternately, 4.1 m further every other frame. It "
         "still bounces off walls that it has left behind. In a minute it is 1.2 km away (see d)."),
@@ -165,7 +166,7 @@ EXAMPLES = {
         "Does it gain energy or lose some? End it with x.",
         "The * stays on the o until the first bounce, in frame 14, and then leaves it: by up to "
         "1.8 m within 20 s. What fails is the rebound. It lifts the car off the wall without "
-        "slowing it down. So the car gains energy at each bounce off the left wall, to which it is "
+        "slowing it. So the car gains energy at each bounce off the left wall, to which it is "
         "pulled, and gives some back at the right one. With correction=rewind the * stays on the "
         "o."),
     18: Example("The exact solution at 4 FPS", {
@@ -180,13 +181,13 @@ EXAMPLES = {
     19: Example("Elastic hops, counted", {
         "x_m": 0.84, "v_mps": 0.098, "a_mps2": -2.0, "CR": 1.0, "correction": "surface",
         "fps_target": 10.0, "show_exact_mark": True},
-        "Nothing is lost in a bounce: the o bounces on for ever. And the *? Count its hops, in "
-        "lines. (d shows v, which turns positive at a bounce.)",
+        "Nothing is lost in a bounce: the o bounces on for ever. And the *? Count the lines of "
+        "each hop. (d shows v, which turns positive at a bounce.)",
         "The hops of the * take 15, 14, 13 ... lines, down to 2 and 1, which are too low to see. "
         "In frame 134 it is at rest. Backward Euler makes each hop two lines shorter than the one "
-        "before, surface makes it one line longer. Now predict the eight other pairs: forward "
-        "makes it two lines longer, so does rebound, exact and none change nothing. Then count "
-        "until the * meets the right wall: add motion=exact, for one."),
+        "before, surface one line longer. Now predict another pair: forward makes it two lines "
+        "longer, so does rebound; exact and none change nothing. Count until the * meets the right "
+        "wall: add motion=exact, for one."),
     20: Example("Hops that lose speed, counted", {
         "x_m": 0.66, "v_mps": 0.75, "a_mps2": -2.0, "CR": 0.8, "motion": "exact",
         "fps_target": 10.0, "show_exact_mark": True},
@@ -197,7 +198,7 @@ EXAMPLES = {
         "which keeps 80 %, and one line after it: 0.8 (9 + 1) + 1 = 9. The o lies still from t = "
         "7.05 s on, its Zeno point, hidden by the wall. At a higher rate the hops end at about as "
         "many lines, so they are lower. With motion=backward correction=surface the * comes to "
-        "rest: -1 + 1 lines before, -1 after."),
+        "rest, too."),
 }
 OWN_SCENE = Example("Your own scene", {},
     "How far does the car get from each wall? Does it come to rest?",
