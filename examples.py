@@ -167,8 +167,7 @@ EXAMPLES = {
         "The * stays on the o until the first bounce, in frame 14, and then leaves it: by up to "
         "1.8 m within 20 s. What fails is the rebound. It lifts the car off the wall without "
         "slowing it. So the car gains energy at each bounce off the left wall, to which it is "
-        "pulled, and gives some back at the right one. With correction=rewind the * stays on the "
-        "o."),
+        "pulled, and gives some back at the right one. With correction=rewind it stays on the o."),
     18: Example("The exact solution at 4 FPS", {
         "x_m": 0.65, "v_mps": 5.0, "a_mps2": -8.0, "CR": 1.0, "motion": "exact",
         "correction": "rewind", "fps_target": 4.0, "show_exact_mark": True},
@@ -197,8 +196,7 @@ EXAMPLES = {
         "cm high: the rebound adds what the bounce takes. It adds one line before the bounce, "
         "which keeps 80 %, and one line after it: 0.8 (9 + 1) + 1 = 9. The o lies still from t = "
         "7.05 s on, its Zeno point, hidden by the wall. At a higher rate the hops end at about as "
-        "many lines, so they are lower. With motion=backward correction=surface the * comes to "
-        "rest, too."),
+        "many lines, so they are lower. With motion=backward correction=surface the * rests, too."),
 }
 OWN_SCENE = Example("Your own scene", {},
     "How far does the car get from each wall? Does it come to rest?",
