@@ -100,8 +100,8 @@ def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -
     return wall_m - CR * overlap_m, -CR * v_mps
 
 # The law of the hops explains chart and map (sections 8, 9). A car that is pulled to a wall hops on
-# it, and each hop should last CR times as long as the one before. With these three corrections a
-# hop, from the wall back to the wall, is followed by one of hop' frames, on average:
+# it, and each hop should last CR times as long as the last one. With these three corrections a hop
+# of hop frames, from the wall back to the wall, is followed by one of hop' frames, on average:
 #     hop' = CR (hop + before) + after
 # before is the motion's entry plus the correction's, and so is after:
 #                before  after                    before  after
@@ -109,18 +109,18 @@ def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -
 #     exact         0      0         surface        +1      0
 #     backward     -1     -1         rebound        +1     +1
 # Why? A car that leaves the wall at w is back after 2 w/(g dt) frames: g dt/2 more speed makes one
-# frame more. Speed gained before the bounce counts CR times, speed gained after it counts whole.
-# The motion. By forward v is half a frame ahead: going down it is g dt/2 too large, before +1;
-# going up the car flies g dt/2 faster than v says, after +1. By backward the reverse: -1 and -1.
+# frame more. An excess before the bounce counts CR times, an excess after it counts whole.
+# The motion. By forward v is half a frame ahead: going in it is g dt/2 too large, before +1; going
+# out the car flies g dt/2 faster than v says, after +1. By backward the reverse: -1 and -1.
 # The correction. A bounce is found at its frame's end, on average half a frame late. Until then the
 # pull makes the car g dt/2 too fast: before +1. surface then starts it from the wall: after 0.
 # rebound's half frame of flight lacks the pull, g dt/2: after +1. By none a car t frames late needs
-# t/CR frames to get out. If t > CR, it is caught; otherwise t is CR/2 on average: before +CR.
-# Then it needs half a frame on average, in which the pull slows it: after -1.
+# t/CR frames to get out. Over one frame, it is caught; otherwise t is 0 to CR, CR/2 on average:
+# before +CR. So getting out takes half a frame on average, in which the pull slows it: after -1.
 # Where it leads. At CR = 1 each hop is before + after longer than the last. If that is positive,
 # hops grow up to the other wall; if negative, they shrink to rest (with none, until it is caught).
 # At CR < 1 a hop repeats itself if it lasts n = (CR before + after)/(1 - CR) frames: hops settle
-# near n frames, at any dt; if n is negative, at rest. If that sum or n is 0, luck decides: how late
+# near n frames, at any dt; if n is negative, at rest. If the sum or n is 0, luck decides: how late
 # each bounce is found (exact + none repeats hops). The law needs equal frames, and many in a hop.
 
 def arrival(d_m: float, u_mps: float, a_mps2: float) -> tuple[float, float]:
