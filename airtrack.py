@@ -325,15 +325,15 @@ def truth_of(scene: Scene) -> Scene:
     """The same scene, solved exactly. It has to start on the track."""
     return replace(scene, motion="exact", correction="replay", x_m=scene.to_track(scene.x_m))
 
-def is_at_rest(scene: Scene, v_mps: float, recent_m: deque[float]) -> bool:
+def is_at_rest(scene: Scene, v_mps: float, last_m: deque[float]) -> bool:
     """Whether the car rests against the wall that it is pulled to or, without a pull, against any.
 
-    In recent frames its mean distance from the wall is at most 1 mm, and its v is at most what the
+    In the last frames its mean distance from the wall is at most 1 mm, and its v at most what the
     pull adds in that time. (By Euler's methods a car that leans on a wall may have some v.)
     """
-    is_held = abs(v_mps) <= abs(scene.a_mps2) * len(recent_m) / scene.fps_target
-    return len(recent_m) == recent_m.maxlen and is_held and any(
-        side * scene.a_mps2 >= 0 and fmean(abs(x_m - wall_m) for x_m in recent_m) <= 0.001
+    is_held = abs(v_mps) <= abs(scene.a_mps2) * len(last_m) / scene.fps_target
+    return len(last_m) == last_m.maxlen and is_held and any(
+        side * scene.a_mps2 >= 0 and sum(abs(x_m - wall_m) for x_m in last_m) <= 0.001 * len(last_m)
         for side, wall_m in ((-1, scene.left_edge_m), (1, scene.right_edge_m)))
 
 def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None:
@@ -341,7 +341,7 @@ def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None
     truth = truth_of(scene)
     x_m, v_mps = scene.x_m, scene.v_mps
     true_m, true_mps = (truth.x_m if scene.show_exact_mark else None), truth.v_mps
-    recent_m = deque[float](maxlen=max(10, round(scene.fps_target / 3)))  # 1/3 s, at least 10
+    last_m = deque[float](maxlen=max(10, round(scene.fps_target / 3)))  # 1/3 s, at least 10
     frame, t_s, why = 0, 0.0, "that is the frame limit"
     beats = paced(scene, keys) if keys else planned(scene)
     for frame, (length_s, fps) in zip(range(1, max_frames + 1), beats):
@@ -358,8 +358,8 @@ def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None
         if keys:
             keys.count(frame, t_s)
         # At rest?
-        recent_m.append(x_m)
-        if scene.auto_off and is_at_rest(scene, v_mps, recent_m):
+        last_m.append(x_m)
+        if scene.auto_off and is_at_rest(scene, v_mps, last_m):
             why = "the car is at rest against a wall"
             break
     why = (keys.why_quit if keys else "") or why
