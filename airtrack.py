@@ -198,10 +198,10 @@ def step(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> tuple[float, fl
     free_m, free_mps = motion(x_m, v_mps, scene.a_mps2, dt_s)
     on_track_m = scene.to_track(free_m)  # the wall, if the move ended beyond one
     is_beyond = on_track_m != free_m
-    if correction and is_beyond:
+    if correction is not None and is_beyond:
         return *correction(free_m, free_mps, on_track_m, scene.a_mps2, scene.CR), free_m
     # A move that ends on the track can have been beyond a wall only if v has changed its sign.
-    if not correction and (is_beyond or v_mps * free_mps < 0):
+    if correction is None and (is_beyond or v_mps * free_mps < 0):
         x_m, v_mps = replay(scene, x_m, v_mps, dt_s)
         is_bounce = is_beyond or v_mps != free_mps  # without one v is exactly the move's
         return x_m, v_mps, (free_m if is_bounce else None)
