@@ -45,7 +45,7 @@ from examples import EXAMPLES, OWN_SCENE, Keys, taken_keys
 # v changes during the frame. Euler's methods hold it constant: forward takes the frame's first v,
 # backward (for a constant a the same as semi-implicit Euler) its last. Both are of first order:
 # half the dt, half the error after a given time. exact has no error at any dt, for a constant a.
-# Yet Euler's positions lie on a true flight, whose v in mid-step is the v that the step uses. So
+# Euler's positions lie on a true flight, but the v of each step is that flight's v in mid-step. So
 # forward's v is half a step ahead of x, backward's is half a step behind.
 # E = v^2/2 - a x is the car's energy per kilogram. In free flight it should not change.
 
@@ -111,17 +111,17 @@ def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -
 # Why? A car that leaves the wall at w is back after 2 w/(g dt) frames: g dt/2 more speed makes one
 # frame more. An excess before the bounce counts CR times, an excess after it counts whole.
 # The motion. By forward v is half a frame ahead: going in it is g dt/2 too large, before +1; going
-# out the car flies g dt/2 faster than v says, after +1. By backward the reverse: -1 and -1.
+# out it is g dt/2 below the flight's, after +1. By backward it is the reverse: -1 and -1.
 # The correction. A bounce is found at its frame's end, on average half a frame late. Until then the
 # pull makes the car g dt/2 too fast: before +1. surface then starts it from the wall: after 0.
 # rebound's half frame of flight lacks the pull, g dt/2: after +1. By none a car t frames late needs
-# t/CR frames to get out. Over one frame, it is caught; otherwise t is 0 to CR, CR/2 on average:
+# t/CR frames to get out. If t > CR, it is caught; otherwise t is 0 to CR, CR/2 on average:
 # before +CR. So getting out takes half a frame on average, in which the pull slows it: after -1.
 # Where it leads. At CR = 1 each hop is before + after longer than the last. If that is positive,
 # hops grow up to the other wall; if negative, they shrink to rest (with none, until it is caught).
 # At CR < 1 a hop repeats itself if it lasts n = (CR before + after)/(1 - CR) frames: hops settle
-# near n frames, at any dt; if n is negative, at rest. If the sum or n is 0, luck decides: how late
-# each bounce is found (exact + none repeats hops). The law needs equal frames, and many in a hop.
+# near n frames, at any dt; if n is negative, at rest. If sum or n is 0, luck decides: how late each
+# bounce is found (not exact + none: it repeats hops). The law needs equal frames, many to a hop.
 
 def arrival(d_m: float, u_mps: float, a_mps2: float) -> tuple[float, float]:
     """How long to a wall d_m ahead, and how fast there: t_s, w_mps. u and a are + towards it."""
