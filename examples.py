@@ -372,14 +372,13 @@ class Keys:
         """What to press, and where, or why nowhere; the question; how the film begins."""
         why = f" (no window: {self.window.why_shut})" if self.window.why_shut else ""
         if self.where():
-            yield f"Keys {self.where()}: p pauses, s steps, x quits{why}."
+            keys = f"Keys {self.where()}: p pauses, s steps, x quits"
+            begins = f"It begins in {THINK_S:g} s, or with Enter; p holds this text."
         else:
-            yield f"No keys here{why}."
+            keys, begins = "No keys here", f"It begins in {WAIT_S:g} s, or with Ctrl-C."
+        yield f"{keys}{why}."
         yield question
-        if self.where():
-            yield f"It begins in {THINK_S:g} s, or with Enter; p holds this text."
-        else:
-            yield f"It begins in {WAIT_S:g} s, or with Ctrl-C."
+        yield begins
 
     def look(self) -> None:
         """Act on the signals and the keys that came since the last look."""

@@ -13,7 +13,7 @@ from typing import Any
 from unittest.mock import Mock, patch
 
 import pytest
-from test_stability import before_and_after, starts_on_the_way_to_the_wall
+from test_stability import before_and_after, ends
 
 import airtrack
 from airtrack import SETTINGS, Scene
@@ -134,9 +134,8 @@ def test_400_random_starts_end_at_the_lengths_that_it_says() -> None:
     told = re.findall(r"ended\s+at\s+(\d+)\s+to\s+(\d+)\s+lines", README)
     for correction, CR, (low, high) in zip(
             ("rebound", "surface", "surface"), (0.8, 0.8, 0.9), told, strict=True):
-        ends = [sum(lines_between_bounces(scene, 3000)[-20:]) / 20
-                for scene in starts_on_the_way_to_the_wall("exact", correction, CR, 400)]
-        assert (round(min(ends)), round(max(ends))) == (int(low), int(high))
+        found = ends("exact", correction, CR, 400)
+        assert (round(min(found)), round(max(found))) == (int(low), int(high))
 
 
 def test_the_law_predicts_from_which_rate_on_example_12_gains_no_energy() -> None:
@@ -144,12 +143,12 @@ def test_the_law_predicts_from_which_rate_on_example_12_gains_no_energy() -> Non
     rows = re.findall(r"^\| (\w+) \+ (\w+) \| (\d+) \| (\d+) \| (\d+) \| (\d+) \|$", README,
                       re.MULTILINE)
     assert len(rows) == 4
+    fps = list(map(int, rates.split()[3:-1]))
     for motion, correction, *told in rows:
         before, after = before_and_after(motion, correction, 0.8)
         n = (0.8 * before + after) / (1 - 0.8)
         limit_fps = n / math.sqrt(8 * 0.01 * 2 * 1.95 / 2**2)  # g^2 (n dt)^2/8 = 1 % of g * track
         letters, = (line.split()[3:] for line in lines if f"{motion} + {correction} " in line)
-        fps = list(map(int, rates.split()[3:-1]))
         last = max(rate for rate, letter in zip(fps, letters, strict=True) if letter in "Gg")
         first = fps[fps.index(last) + 1]
         assert list(map(int, told)) == [round(n), round(3.6 * n), last, first]
