@@ -45,8 +45,9 @@ from examples import EXAMPLES, OWN_SCENE, Keys, taken_keys
 # v changes during the frame. Euler's methods hold it constant: forward takes the frame's first v,
 # backward (for a constant a the same as semi-implicit Euler) its last. Both are of first order:
 # half the dt, half the error after a given time. exact has no error at any dt, for a constant a.
-# Euler's positions lie on a true flight, but the v of each step is that flight's v in mid-step. So
-# forward's v is half a step ahead of x, backward's is half a step behind.
+# Euler's points lie on a true flight, though with another first v: the v that a step uses is that
+# flight's v in mid-step. forward returns the next step's v, half a step later than its x; backward
+# returns the v just used, half a step earlier than its x. Section 2 needs this.
 # E = v^2/2 - a x is the car's energy per kilogram. In free flight it should not change.
 
 State = tuple[float, float]  # x_m, v_mps
@@ -72,18 +73,18 @@ MOTIONS = {"forward": forward, "backward": backward, "exact": exact}  # name a n
 #     off, into    off a wall is back towards the track; into it is the other way
 #     g            the pull into the wall (m/s^2); below 0, it is a pull off the wall
 #
-# A move that ends beyond a wall has missed a bounce: the car may stick there. A correction takes
-# the move's x and v, the wall, a and CR, and returns better ones. After the bounce, until the frame
-# ends, the correction none leaves the car beyond the wall, surface holds it on the wall, rebound
-# lets it fly without the pull, and rewind lets it fly under the pull. replay redoes the whole move.
+# A move from the track to beyond a wall has missed a bounce: the car may stick there. A correction
+# takes the move's x and v, the wall, a and CR, and returns better ones. The corrections differ in
+# what the car does from the bounce to the frame's end. (replay redoes the whole move.)
 
 def none(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Reverse v, but leave the car beyond the wall: a trap.
 
-    The step out may be too short: CR < 1 makes it shorter; backward, pulled into the wall, slows v
-    first; forward, pulled off the wall, enters with more v than it reverses. Still beyond, v is
-    reversed again, into the wall, and so on: the car is caught. At CR < 1, if g > 0, backward then
-    sinks by g dt^2/(1 + CR) a frame (example 3), exact more slowly; forward creeps out and hops on.
+    Where the move out is too short, v is reversed once more, now into the wall, and so on: the car
+    is caught. By any motion CR < 1 can do that. At CR = 1 backward can if g > 0, which slows v
+    before the move out; forward can if g < 0, which slowed v after the move in. Caught, if g > 0,
+    backward sinks by g dt^2/(1 + CR) a frame (example 3) and exact, at CR < 1, more slowly;
+    forward creeps out, if CR > 0, and hops on.
     """
     return x_m, -CR * v_mps
 
@@ -99,29 +100,31 @@ def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -
     overlap_m = x_m - wall_m
     return wall_m - CR * overlap_m, -CR * v_mps
 
-# The law of the hops explains chart and map (sections 8, 9). A car that is pulled to a wall hops on
-# it, and each hop should last CR times as long as the last one. With these three corrections a hop
-# of hop frames, from the wall back to the wall, is followed by one of hop' frames, on average:
-#     hop' = CR (hop + before) + after
-# before is the motion's entry plus the correction's, and so is after:
-#                before  after                    before  after
-#     forward      +1     +1         none           +CR    -1
-#     exact         0      0         surface        +1      0
-#     backward     -1     -1         rebound        +1     +1
-# Why? A car that leaves the wall at w is back after 2 w/(g dt) frames: g dt/2 more speed makes one
-# frame more. An excess before the bounce counts CR times, an excess after it counts whole.
-# The motion. By forward v is half a frame ahead: going in it is g dt/2 too large, before +1; going
-# out it is g dt/2 below the flight's, after +1. By backward it is the reverse: -1 and -1.
-# The correction. A bounce is found at its frame's end, on average half a frame late. Until then the
-# pull makes the car g dt/2 too fast: before +1. surface then starts it from the wall: after 0.
-# rebound's half frame of flight lacks the pull, g dt/2: after +1. By none a car t frames late needs
-# t/CR frames to get out. If t > CR, it is caught; otherwise t is 0 to CR, CR/2 on average:
-# before +CR. So getting out takes half a frame on average, in which the pull slows it: after -1.
-# Where it leads. At CR = 1 each hop is before + after longer than the last. If that is positive,
-# hops grow up to the other wall; if negative, they shrink to rest (with none, until it is caught).
-# At CR < 1 a hop repeats itself if it lasts n = (CR before + after)/(1 - CR) frames: hops settle
-# near n frames, at any dt; if n is negative, at rest. If sum or n is 0, luck decides: how late each
-# bounce is found (not exact + none: it repeats hops). The law needs equal frames, many to a hop.
+# The law of the hops explains chart and map (sections 8, 9). A car hops on the wall that it is
+# pulled to, and each hop should last CR times as long as the one before. Count a hop in lines of
+# the film, from a line in which a bounce is found to the next such line. Then, on average,
+#     next = CR (hop + k) + k        where k is the motion's k plus the correction's:
+#                 k  =  p  +  q                      k  =  p  +  q
+#     forward     1    1/2   1/2         surface    1/2    0    1/2
+#     exact       0     0     0          rebound     1    1/2   1/2
+#     backward   -1   -1/2  -1/2         none        0 at CR = 1; below, it soon catches the car
+# Why? (1) In each frame the pull changes v by g dt. So a hop's first speed, off the wall (v after
+# the correction), and its last, into the wall (v before the next one), add up to hop g dt.
+# (2) Draw the true flight through the hop's positions, on to the wall at both ends: it leaves and
+# meets the wall at one speed. The first speed is the flight's p frames after it has left, p g dt
+# below that speed; the last is the flight's q frames after it has met the wall, q g dt above it.
+# So last - first = k g dt, and since the bounce makes CR times the last speed the next first:
+#     first = (hop - k) g dt/2        last = (hop + k) g dt/2        next first = CR last
+# (3) p and q are the motion's plus the correction's. forward's v is half a frame later than its x,
+# backward's half a frame earlier. A bounce is found at its frame's end, up to a frame late, so q is
+# 1/2 on average. surface then starts from the wall; rebound as far off it as half a frame carries
+# it, not slowed on that way, so on a flight that left half a frame before; none (at CR = 1) as deep
+# as it came in, so as early as it was found late: p = -q.
+# Where it leads. At CR = 1 a hop is 2 k lines longer than the one before. If k > 0, hops grow up to
+# the other wall; at CR < 1 long hops shrink towards n = k (1 + CR)/(1 - CR) lines, at any dt. But
+# some hop on the way repeats itself, its bounces all equally late (found, at CR 0.6 to 0.95: 0.7 n
+# to 2 n lines). If k < 0, hops shrink until the car is on the wall after every frame. If k = 0,
+# luck decides: how late each bounce is found. All this in frames of one length, many to a hop.
 
 def arrival(d_m: float, u_mps: float, a_mps2: float) -> tuple[float, float]:
     """How long to a wall d_m ahead, and how fast there: t_s, w_mps. u and a are + towards it."""

@@ -180,23 +180,23 @@ EXAMPLES = {
     19: Example("Elastic hops, counted", {
         "x_m": 0.84, "v_mps": 0.098, "a_mps2": -2.0, "CR": 1.0, "correction": "surface",
         "fps_target": 10.0, "show_exact_mark": True},
-        "Nothing is lost in a bounce: the o bounces on for ever. And the *? Count the lines of "
-        "each hop. (d shows v, which turns positive at a bounce.)",
+        "Elastic (CR=1): the o bounces on for ever. And the *? Count each hop's lines. (With d, v "
+        "falls by 0.20 in each line, except where a bounce is found.)",
         "The hops of the * take 15, 14, 13 ... lines, down to 2 and 1, which are too low to see. "
-        "In frame 134 it is at rest. Backward Euler makes each hop two lines shorter than the one "
-        "before, surface one line longer. Now predict another pair: forward makes it two lines "
-        "longer, so does rebound; exact and none change nothing. Count until the * meets the right "
-        "wall: add motion=exact, for one."),
+        "In frame 134 it is at rest. At CR = 1 each hop is 2 k lines longer than the one before, "
+        "and k is -1 for backward plus 1/2 for surface: one line shorter. Now predict another "
+        "pair: k is 1 for forward, 0 for exact; 1 for rebound, 0 for none. Count until the * meets "
+        "the right wall: add motion=exact, for one."),
     20: Example("Hops that lose speed, counted", {
         "x_m": 0.66, "v_mps": 0.75, "a_mps2": -2.0, "CR": 0.8, "motion": "exact",
         "fps_target": 10.0, "show_exact_mark": True},
         "Each bounce takes 20 % of the speed. Which comes to rest, o or *, and when? Count the "
         "hops of the * as in example 19. End with x.",
         "The hops of the * take 14, 12, 10 lines and, from frame 48 on (t = 4.8 s), 9 for ever, 20 "
-        "cm high: the rebound adds what the bounce takes. It adds one line before the bounce, "
-        "which keeps 80 %, and one line after it: 0.8 (9 + 1) + 1 = 9. The o lies still from t = "
-        "7.05 s on, its Zeno point, hidden by the wall. At a higher rate the hops end at about as "
-        "many lines, so they are lower. With motion=backward correction=surface the * rests, too."),
+        "cm high. On average a hop is followed by one of CR (hop + k) + k lines, and k is 0 for "
+        "exact plus 1 for rebound: 0.8 (9 + 1) + 1 = 9. The o lies still from t = 7.05 s on, its "
+        "Zeno point, hidden by the wall. At a higher rate the hops end at about as many lines, so "
+        "they are lower. With motion=backward correction=surface the * rests, too."),
 }
 OWN_SCENE = Example("Your own scene", {},
     "How far does the car get from each wall? Does it come to rest?",

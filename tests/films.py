@@ -1,9 +1,12 @@
 """Runs of the program, for the tests: in this process, or as a user starts it."""
 
 import os
+import random
 import re
 import sys
-from itertools import pairwise
+from collections.abc import Iterator
+from fractions import Fraction
+from itertools import count, islice, pairwise
 from pathlib import Path
 from typing import NamedTuple
 
@@ -53,13 +56,43 @@ def environment(**changes: str | None) -> dict[str, str]:
     return {name: value for name, value in wanted.items() if value is not None}
 
 
-def lines_between_bounces(scene: Scene, lines: int) -> list[int]:
-    """How many lines of the film, from each collision to the next."""
-    x_m, v_mps, found = scene.x_m, scene.v_mps, []
-    for line in range(lines):
-        x_m, v_mps, mark_m = step(scene, x_m, v_mps, 1 / scene.fps_target)
-        found += [line] if mark_m is not None else []
-    return [b - a for a, b in pairwise(found)]
+def hops(scene: Scene, number: int) -> list[int]:
+    """The first hops of a film in lines, from each in which a bounce is found to the next."""
+    def bounces() -> Iterator[int]:
+        x_m, v_mps = scene.x_m, scene.v_mps
+        for line in count(1):
+            x_m, v_mps, mark_m = step(scene, x_m, v_mps, 1 / scene.fps_target)
+            if mark_m is not None:
+                yield line
+    return [b - a for a, b in pairwise(islice(bounces(), number + 1))]
+
+
+def starts(motion: str, correction: str, CR: float, low: float, high: float,
+           number: int) -> Iterator[Scene]:
+    """Cars about to meet the wall that they are pulled to, at x = 0, for hops of so many lines."""
+    rng = random.Random(f"{motion} {correction} {CR}")
+    for _ in range(number):
+        dt_s, g_mps2, side = rng.uniform(0.01, 0.1), rng.uniform(1, 10), rng.choice([-1, 1])
+        w_mps = g_mps2 * dt_s * rng.uniform(low, high) / 2 / CR
+        yield Scene(
+            motion=motion, correction=correction, CR=CR, a_mps2=side * g_mps2, v_mps=side * w_mps,
+            x_m=-side * rng.random() * w_mps * dt_s, fps_target=1 / dt_s,
+            left_edge_m=min(0, -1000 * side), right_edge_m=max(0, -1000 * side))
+
+
+# The law of the hops: the k of each motion and correction, as airtrack.py's table has it.
+TABLE = (HERE / "airtrack.py").read_text().partition("law of the hops")[2].partition("Why?")[0]
+K = {name: float(Fraction(k)) for name, k in re.findall("    ([a-z]+) +(-?[0-9/]+)", TABLE)}
+
+
+def ends(motion: str, correction: str, CR: float, number: int) -> list[float]:
+    """The mean of the last hops of films whose first hops last 2 to 3 times as long as the law's n.
+
+    n = CR (n + k) + k is the hop that is followed by itself.
+    """
+    n = max(10, (K[motion] + K[correction]) * (1 + CR) / (1 - CR))
+    return [sum(hops(scene, 150)[-20:]) / 20
+            for scene in starts(motion, correction, CR, 2 * n, 3 * n, number)]
 
 
 Beside = list[tuple[float, float, float | None]]  # x, the true x and mark_m, frame by frame

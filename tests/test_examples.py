@@ -11,7 +11,7 @@ import pytest
 
 from airtrack import Scene, planned, render_track, step, truth_of
 from examples import EXAMPLES
-from films import apart_m, beside_the_truth, details, film, lines_between_bounces
+from films import K, apart_m, beside_the_truth, details, film, hops
 
 Capture = pytest.CaptureFixture[str]
 
@@ -285,19 +285,28 @@ def test_the_hops_of_19_and_20_are_counted_for_other_methods_too(
         of_x: float) -> None:
     settings = EXAMPLES[number].settings | {"motion": motion, "correction": correction}
     shifted = {"x_m": settings["x_m"] * (1 + of_x), "v_mps": settings["v_mps"] * (1 + of_v)}
-    assert lines_between_bounces(Scene(**settings | shifted), 400)[:len(lines)] == lines
+    assert hops(Scene(**settings | shifted), len(lines)) == lines
+
+
+def test_19_is_counted_as_its_question_says(capsys: Capture) -> None:
+    says(19, "15, 14, 13 ...", "2 and 1", "frame 134", "one line shorter")
+    for name, k in K.items():
+        assert re.search(rf"{k:g} for {name}".replace("0.5", "1/2"), EXAMPLES[19].seen)
+    assert "v falls by 0.20" in EXAMPLES[19].look_for
+    vs = [details(line)[1] for line in film(capsys, "19", "d").lines]
+    found = [line for line, (a, b) in enumerate(pairwise(vs)) if abs(b - a + 0.20) > 0.011]
+    assert [b - a for a, b in pairwise(found)][:15] == [*range(15, 0, -1)]
 
 
 def test_20_hops_9_lines_or_about_as_many_and_the_truth_lies_still() -> None:
-    says(19, "15, 14, 13 ...", "2 and 1", "two lines shorter", "one line longer", "frame 134")
-    says(20, "14, 12, 10", "frame 48", "t = 4.8 s", "9 for ever", "0.8 (9 + 1) + 1 = 9", "80 %",
-         "20 cm", "7.05 s")
+    says(20, "14, 12, 10", "frame 48", "t = 4.8 s", "9 for ever", "0.8 (9 + 1) + 1 = 9", "20 cm",
+         "7.05 s")
     bounces = [n for n, (_, _, mark_m) in enumerate(states(20, 57), 1) if mark_m is not None]
     assert bounces == [12, 26, 38, 48, 57]
     assert pytest.approx(0.20, abs=0.005) == 2 * (9 * 0.1)**2 / 8
     for fps in (30, 60, 120):
         scene = Scene(**EXAMPLES[20].settings | {"fps_target": fps})
-        assert all(7 <= lines <= 13 for lines in lines_between_bounces(scene, 30 * fps)[-20:])
+        assert all(7 <= lines <= 13 for lines in hops(scene, 200)[-20:])
     truth = truth_of(Scene(**EXAMPLES[20].settings))
     assert step(truth, truth.x_m, truth.v_mps, 7.05)[:2] != (0.25, 0.0)
     assert step(truth, truth.x_m, truth.v_mps, 7.06)[:2] == (0.25, 0.0)

@@ -8,18 +8,18 @@ import shutil
 import subprocess
 import sys
 from contextlib import redirect_stdout
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 from unittest.mock import Mock, patch
 
 import pytest
-from test_stability import before_and_after, ends
 
 import airtrack
 from airtrack import SETTINGS, Scene
 from examples import EXAMPLES
 from figures import errors_m, printed
-from films import HERE, details, environment, film, lines_between_bounces
+from films import HERE, K, details, ends, environment, film, hops
 
 Capture = pytest.CaptureFixture[str]
 README = (HERE / "README.md").read_text(encoding="utf-8")
@@ -103,62 +103,49 @@ def test_the_settings_have_the_units_and_defaults_of_the_program() -> None:
         assert str(SETTINGS[name].default) == default
 
 
-def test_the_hops_are_counted_in_the_table_and_in_the_exercise() -> None:
-    cell = r"\*\*(\S+)\*\*: (\d.*)"
-    table = re.findall(rf"^\| (\w+) \| {cell} \| {cell} \| {cell} \|$", README, re.MULTILINE)
-    answer, = re.findall(r"film:\s+([0-9 ]+) \u2026 lines", README)
-    told = [(20, 0.6, "forward", "surface", "3", answer)]
-    for motion, *cells in table:
-        told += [(19, 1.0, motion, *each) for each in zip(
-            ("none", "surface", "rebound"), cells[::2], cells[1::2], strict=True)]
-    assert len(told) == 10
-    for number, CR, motion, correction, total, text in told:
-        assert int(total.replace("\u2212", "-")) == sum(before_and_after(motion, correction, 1))
-        lines = [int(word) for word in re.findall("[0-9]+", text.partition(" \u2026")[0])]
+def test_the_hops_are_counted_and_predicted_as_its_tables_say() -> None:
+    readme = README.replace("\u2212", "-")
+    rows = re.findall(r"^\| (\w+) \| (-?\d) \| \| (\w+) \| ([\d/]+)\b.*\|$", readme, re.MULTILINE)
+    assert {row[at]: float(Fraction(row[at + 1])) for row in rows for at in (0, 2)} == K
+    told = []
+    for motion, *cells in re.findall(
+            r"^\| (\w+) \|" + 3 * r" \*\*(\S+)\*\*: (\d.*) \|" + "$", readme, re.MULTILINE):
+        for correction, twice, text in zip(
+                ("none", "surface", "rebound"), cells[::2], cells[1::2], strict=True):
+            assert int(twice) == 2 * (K[motion] + K[correction])
+            told.append((19, 1.0, motion, correction, text.partition(" \u2026")[0]))
+    assert len(told) == 9
+    answer, = re.findall(r"film: ([0-9\s]+) \u2026 lines", README)
+    counted, predicted = (line.split("|")[2:-1] for line in re.findall(
+        r"^\| (?:counted|predicted) \|.*$", README, re.MULTILINE))
+    for number, CR, motion, correction, text in (
+            *told, (20, 0.6, "forward", "surface", answer),
+            (20, 0.8, "exact", "rebound", " ".join(counted))):
+        lines = [int(word) for word in re.findall("[0-9]+", text)]
         assert len(lines) >= 3
         scene = Scene(**EXAMPLES[number].settings | {
             "motion": motion, "correction": correction, "CR": CR})
-        assert lines_between_bounces(scene, 200)[:len(lines)] == lines
-
-
-def test_the_law_s_tables_are_the_law() -> None:
-    rows = re.findall(r"^\| (\w+) \| (\S?\d) \| (\S?\d) \| \| (\w+) \| (\S+) \| (\S+) \|$",
-                      README.replace("\u2212", "-"), re.MULTILINE)
-    assert len(rows) == 3
-    for motion, before, after, correction, its_before, its_after in rows:
-        assert before_and_after(motion, correction, 0.7) == pytest.approx((
-            int(before) + float(its_before.replace("CR", "0.7")), int(after) + int(its_after)))
+        assert hops(scene, len(lines)) == lines
+    assert predicted[1:] == [f" {0.8 * (int(hop) + 1) + 1:.1f} " for hop in counted[:-1]]
+    law, n = [11.0], re.findall(r", and n is (\d+)", README)
+    while len(law) < 100:
+        law.append(0.6 * (law[-1] + 1.5) + 1.5)
+    assert f"predicts: {', '.join(f'{hop:.2g}' for hop in law[:4])} \u2026" in README
+    assert n == [f"{law[-1]:g}"]
 
 
 def test_400_random_starts_end_at_the_lengths_that_it_says() -> None:
-    told = re.findall(r"ended\s+at\s+(\d+)\s+to\s+(\d+)\s+lines", README)
-    for correction, CR, (low, high) in zip(
+    told = re.findall(r"n is ([\d.]+),\s(?:ended\s)?at\s(\d+)\sto\s(\d+)\slines", README)
+    for correction, CR, (n, low, high) in zip(
             ("rebound", "surface", "surface"), (0.8, 0.8, 0.9), told, strict=True):
+        assert float(n) == pytest.approx(K[correction] * (1 + CR) / (1 - CR))
         found = ends("exact", correction, CR, 400)
         assert (round(min(found)), round(max(found))) == (int(low), int(high))
 
 
-def test_the_law_predicts_from_which_rate_on_example_12_gains_no_energy() -> None:
-    rates, *lines = printed("stability", "12").split("\n\n")[1].splitlines()
-    rows = re.findall(r"^\| (\w+) \+ (\w+) \| (\d+) \| (\d+) \| (\d+) \| (\d+) \|$", README,
-                      re.MULTILINE)
-    assert len(rows) == 4
-    fps = list(map(int, rates.split()[3:-1]))
-    for motion, correction, *told in rows:
-        before, after = before_and_after(motion, correction, 0.8)
-        n = (0.8 * before + after) / (1 - 0.8)
-        limit_fps = n / math.sqrt(8 * 0.01 * 2 * 1.95 / 2**2)  # g^2 (n dt)^2/8 = 1 % of g * track
-        letters, = (line.split()[3:] for line in lines if f"{motion} + {correction} " in line)
-        last = max(rate for rate, letter in zip(fps, letters, strict=True) if letter in "Gg")
-        first = fps[fps.index(last) + 1]
-        assert list(map(int, told)) == [round(n), round(3.6 * n), last, first]
-        assert last < limit_fps < first
-
-
 def test_luck_and_the_exercises_end_as_it_says(capsys: Capture) -> None:
     at_rest = "the car is at rest against a wall"
-    assert lines_between_bounces(Scene(**EXAMPLES[8].settings | {"correction": "surface"}),
-                                 2000)[-20:] == [26] * 20
+    assert hops(Scene(**EXAMPLES[8].settings | {"correction": "surface"}), 99) == [26] * 99
     assert re.search(rf"t = 36\.\d\d s: {at_rest}", film(capsys, "9", "correction=surface").ending)
     ending = film(capsys, "12", "CR=0.9", "correction=replay").ending
     assert f"t = 24.99 s: {at_rest}" in ending
