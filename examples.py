@@ -79,17 +79,16 @@ EXAMPLES = {
         "show_collision_mark": False},
         "Each line is a 300th of a second. Wait for its end. Then scroll back, as far as your "
         "terminal keeps the lines: what does the motion look like?",
-        "Each hop is an arc, a parabola. The first ones are hundreds of lines long, the last ones "
-        "draw a tail, and the film stops after 1880 frames. (As the car starts beyond the wall, "
-        "frames 1 and 2 both reverse it: it leaves at 6.4 m/s.)"),
+        "Each hop is an arc, a parabola (the right wall cuts the first one off). They are hundreds "
+        "of lines long at first, the last ones draw a tail, and the film stops after 1880 frames. "
+        "As the car starts beyond the wall, frames 1 and 2 both reverse it: it leaves at 6.4 m/s."),
     5: Example("Where each collision was found", {
         "x_m": 2.0, "v_mps": 3.0, "a_mps2": 2.0, "CR": 0.7},
         "A 0 is where the move alone put the car, beyond the wall. Where is the * in the same "
         "line? Does every collision show a 0?",
         "The rebound has put the * back on the track, 70 % as far off the wall as it was beyond "
         "it: often that is still the wall's column. Not each of the 19 collisions shows a 0: the "
-        "wall's mark hides the others. Add fps_target=10, and each of the first five does (end "
-        "that film with x)."),
+        "wall's mark hides the others. With fps_target=10 at least the first five do (x quits)."),
     6: Example("Example 5 zoomed out", {
         "x_m": 2.0, "v_mps": 3.0, "a_mps2": 2.0, "CR": 0.7, "m_to_px": 30.0},
         "The drawing is smaller than in example 5. Does the motion change? Compare after how many "
@@ -105,10 +104,10 @@ EXAMPLES = {
         "Example 7 at 10 FPS: the car moves up to 0.26 m in a frame. How near to the start mark "
         "does it come back? Watch four times, then press x.",
         "It comes back to 1.88 m, 12 cm short of the mark, then to the mark, and so on, "
-        "alternately. Backward Euler takes 1 cm of the way in each frame, 26 cm there and back. "
-        "The rebound puts the car as far off the wall as it was beyond it, and does not slow it: "
-        "so it gives back twice that distance, 14 cm, 12 too few, then 38 cm, 12 too many, then 14 "
-        "cm again."),
+        "alternately. Backward Euler takes 1 cm of the way in each frame, 26 cm in a fall and the "
+        "rise after it. The rebound puts the car as far off the wall as it was beyond it, and does "
+        "not slow it: so it gives back twice that distance. The first bounce gives back 2 * 7 = 14 "
+        "cm, 12 too few. The next one gives back 2 * 19 = 38 cm, 12 too many."),
     9: Example("Elastic, large and irregular steps", COARSE | IRREGULAR,
         "Example 8 with irregular frames: each is up to a quarter longer or shorter. How near to "
         "the start mark does it come back? Press x after 30 s.",
@@ -128,10 +127,11 @@ EXAMPLES = {
     12: Example("The exact solution, losing energy", EXACT | IRREGULAR | {"CR": 0.8},
         "Example 11, but the car keeps 80 % of its speed at each bounce, and the bounces come "
         "faster and faster. How many are there before it is at rest?",
-        "Infinitely many, and all before t = 11.91 s: the Zeno point. But rewind can settle only "
-        "one bounce a frame. So the car hops on, at last seen only by a 0, until the film ends in "
-        "frame 130. Yet rewind is all that this scene needs: it is up to 4 mm off in this film, "
-        "less than a quarter of a column. With correction=replay it is at rest in frame 122."),
+        "In the film 20: with d, v rises in so many lines. Truly infinitely many, all before t = "
+        "11.91 s, the Zeno point. But rewind can settle only one a frame. So the car hops on, at "
+        "last seen only by a 0, until the film ends in frame 130. Yet rewind is all that this "
+        "scene needs: it is up to 4 mm off in this film, less than a quarter of a column. With "
+        "correction=replay the car is at rest in frame 122."),
     13: Example("Forward Euler beside the truth", {
         "x_m": 0.25, "v_mps": 2.48, "a_mps2": -2.0, "CR": 1.0, "motion": "forward",
         "fps_target": 10.0, "show_exact_mark": True},
@@ -139,8 +139,8 @@ EXAMPLES = {
         "before either meets a wall? See both turn, then press x.",
         "The * turned at 1.91 m, in frame 13, the o at 1.79 m, and neither had met a wall. Forward "
         "Euler moves the car at the velocity of the frame's start: too fast on the way out, too "
-        "slow on the way back. Each step adds a^2 dt^2/2 = 0.02 m^2/s^2 to the energy v^2/2 - a x. "
-        "With motion=exact the * stays with the o until they meet the wall, in frame 25."),
+        "slow on the way back. Each step adds a^2 dt^2/2 = 0.02 m^2/s^2 to v^2/2 - a x, the energy "
+        "per kilogram. With motion=exact the * stays with the o until the wall, in frame 25."),
     14: Example("Four metres a frame", QUICK,
         "The car moves 4 m a frame, on a track of 1.95 m. Does it stay between the walls? (< and "
         ">: out of the picture.) End the film with x.",
@@ -200,7 +200,7 @@ EXAMPLES = {
 }
 OWN_SCENE = Example("Your own scene", {},
     "How far does the car get from each wall? Does it come to rest?",
-    "To go on, add show_exact_mark=True, another motion or correction, or the word stability.")
+    "To go on, try another motion, correction or frame rate, one at a time. What does it change?")
 
 
 # ==== The terminal's keys =======================================================================
@@ -239,17 +239,19 @@ else:
         def take(self) -> None:
             """Get keys one by one, unechoed, and Ctrl-S too; again at each look, as after fg."""
             if HAS_KEYBOARD:
-                mode = termios.tcgetattr(0)
-                self.found = self.found or termios.tcgetattr(0)
-                mode[0] &= ~termios.IXON
-                mode[3] &= ~(termios.ICANON | termios.ECHO)
-                mode[6][termios.VMIN], mode[6][termios.VTIME] = 1, 0
-                termios.tcsetattr(0, termios.TCSANOW, mode)
+                with contextlib.suppress(termios.error):  # a signal, or the shell has gone
+                    mode = termios.tcgetattr(0)
+                    self.found = self.found or termios.tcgetattr(0)
+                    mode[0] &= ~termios.IXON
+                    mode[3] &= ~(termios.ICANON | termios.ECHO)
+                    mode[6][termios.VMIN], mode[6][termios.VTIME] = 1, 0
+                    termios.tcsetattr(0, termios.TCSANOW, mode)
 
         def give_back(self) -> None:
             """Leave the terminal as it was found."""
             if self.found:
-                termios.tcsetattr(0, termios.TCSANOW, self.found)
+                with contextlib.suppress(termios.error):
+                    termios.tcsetattr(0, termios.TCSANOW, self.found)
 
         def read(self) -> str:
             """The keys since the last call, up to an Esc, with which arrows and reports begin."""
@@ -262,12 +264,17 @@ else:
 # ==== The window's keys =========================================================================
 
 WINDOW_CLOSED = "closed"
+FACES = {  # what the film does: the window's colour, and what the keys would do now
+    "waiting": ("lightblue", "Enter: begin   p: hold   x: quit"),
+    "running": ("white", "p: pause   s: step   x: quit"),
+    "PAUSED": ("darkorange", "p: resume   s: step   x: quit"),
+}
 
 class Window:
     """The little pygame window. Without pygame or a display it stays shut; why_shut says why."""
 
     why_shut = "it was not opened"
-    words = ""  # on its face
+    state = ""  # of the film, as its face shows it
     pygame: Any
 
     def open(self) -> None:
@@ -292,21 +299,20 @@ class Window:
                     pygame.display.set_mode((300, 20))
                     pygame.font.init()
                     self.pygame, self.why_shut = pygame, ""
-                    self.show(is_paused=False)
+                    self.show("waiting")
         except BaseException as fault:  # a broken pygame may raise anything
             is_missing = isinstance(fault, ModuleNotFoundError) and fault.name == "pygame"
             self.why_shut = "pygame is not installed" if is_missing else (
                 f"pygame does not work ({type(fault).__name__})")
 
-    def show(self, is_paused: bool) -> None:
-        """Say on the window's face and in its caption what the keys do now."""
-        state, p_does = ("PAUSED", "resume") if is_paused else ("running", "pause")
-        words = f"{state}   p: {p_does}   s: step   x: quit"
-        if not self.why_shut and words != self.words:
-            self.words = words
+    def show(self, state: str) -> None:
+        """Say on the window's face and in its caption what the film and the keys do now."""
+        if not self.why_shut and state != self.state:
+            self.state, (colour, keys) = state, FACES[state]
+            words = f"{state}   {keys}"
             self.pygame.display.set_caption(" ".join(words.split()))
             surface = self.pygame.display.get_surface()
-            surface.fill("darkorange" if is_paused else "white")
+            surface.fill(colour)
             text = self.pygame.font.Font(None, 22).render(words, True, "black")
             surface.blit(text, text.get_rect(center=surface.get_rect().center))
             self.pygame.display.flip()
@@ -385,7 +391,8 @@ class Keys:
         self.heed_signals()
         for key in [*self.terminal.read(), *self.window.read()]:
             self.press(key)
-        self.window.show(self.is_paused)
+        state = "running" if self.begun_by else "waiting"
+        self.window.show("PAUSED" if self.is_paused else state)
 
     def heed_signals(self) -> None:
         """Act on the signals that were noted: Ctrl-C's is a key, the others end the run."""

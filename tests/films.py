@@ -1,19 +1,29 @@
 """Runs of the program, for the tests: in this process, or as a user starts it."""
 
+import contextlib
 import os
 import random
 import re
+import select
+import signal
+import subprocess
 import sys
+import time
 from collections.abc import Iterator
 from fractions import Fraction
 from itertools import count, islice, pairwise
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import pytest
 
 from airtrack import Scene, main, step, truth_of
 from examples import EXAMPLES
+
+if sys.platform != "win32":
+    import fcntl
+    import struct
+    import termios
 
 HERE = Path(__file__).resolve().parent.parent
 COMMAND = [sys.executable, str(HERE / "airtrack.py")]
@@ -86,10 +96,7 @@ K = {name: float(Fraction(k)) for name, k in re.findall("    ([a-z]+) +(-?[0-9/]
 
 
 def ends(motion: str, correction: str, CR: float, number: int) -> list[float]:
-    """The mean of the last hops of films whose first hops last 2 to 3 times as long as the law's n.
-
-    n = CR (n + k) + k is the hop that is followed by itself.
-    """
+    """The mean of the last hops of films whose first ones last 2 to 3 n lines, as the law has n."""
     n = max(10, (K[motion] + K[correction]) * (1 + CR) / (1 - CR))
     return [sum(hops(scene, 150)[-20:]) / 20
             for scene in starts(motion, correction, CR, 2 * n, 3 * n, number)]
@@ -113,3 +120,79 @@ def beside_the_truth(number: int, frames: int, shift: float, **changes: object) 
 
 def apart_m(found: Beside) -> float:
     return max(abs(x_m - true_m) for x_m, true_m, _ in found)
+
+
+PATIENCE_S = 30  # for what must come: only a test that fails waits so long
+
+
+def quick(change: str = "pass", pause_s: float = 0.01) -> list[str]:
+    """The program, with another pause to read each header in, and with a change to it."""
+    code = (f"import os, sys, time, airtrack, examples; examples.THINK_S = {pause_s}; "
+            f"examples.WAIT_S = {pause_s}; {change}; sys.exit(airtrack.main())")
+    return [sys.executable, "-c", code]
+
+
+def sit_down() -> None:
+    """At the terminal that is standard input. Ctrl-C works there, even if the tests ignore it."""
+    fcntl.ioctl(0, termios.TIOCSCTTY, 0)
+    for number in (signal.SIGINT, signal.SIGQUIT, signal.SIGHUP, signal.SIGTERM):
+        signal.signal(number, signal.SIG_DFL)
+
+
+class Terminal(contextlib.AbstractContextManager["Terminal"]):
+    """A program in a pseudo-terminal of its own, as somebody at the keyboard sees it."""
+
+    def __init__(self, *command: str, columns: int = 200, **changes: Any) -> None:
+        self.ours, self.theirs = os.openpty()
+        fcntl.ioctl(self.theirs, termios.TIOCSWINSZ, struct.pack("4H", 40, columns, 0, 0))
+        self.found = self.mode()
+        self.all, self.seen = "", 0  # all that came, and how much of it was waited for
+        self.program = subprocess.Popen(
+            command, stdin=self.theirs, stdout=self.theirs, stderr=self.theirs, cwd=HERE,
+            env=environment(**changes), start_new_session=True, preexec_fn=sit_down)
+
+    def __exit__(self, *_: object) -> None:
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(self.program.pid, signal.SIGKILL)
+        self.program.wait()
+        os.close(self.ours)
+        os.close(self.theirs)
+
+    def mode(self) -> list[Any]:
+        return termios.tcgetattr(self.ours)
+
+    def press(self, keys: str) -> None:
+        """Type keys, or send the signal of that name."""
+        if keys.startswith("SIG"):
+            self.program.send_signal(signal.Signals[keys])
+        else:
+            os.write(self.ours, keys.encode())
+
+    def read(self, wait_s: float) -> bool:
+        """Read some of what there is; False if nothing came in that time."""
+        is_ready = bool(select.select([self.ours], [], [], wait_s)[0])
+        if is_ready:
+            self.all += os.read(self.ours, 65536).decode(errors="replace")
+        return is_ready
+
+    def until(self, *texts: str) -> None:
+        """Wait until the texts have come, one after the other."""
+        deadline_s = time.monotonic() + PATIENCE_S
+        for text in texts:
+            while text not in self.all[self.seen:]:
+                assert time.monotonic() < deadline_s, f"no {text!r}: {self.all[-1000:]}"
+                self.read(0.05)
+            self.seen = self.all.index(text, self.seen) + len(text)
+
+    def ends(self, status: int) -> None:
+        """Wait for the end: with this status, without a traceback, the terminal as found."""
+        while self.program.poll() is None or self.read(0):
+            self.read(0.05)
+        assert self.program.returncode == status, self.all[-1000:]
+        assert self.mode() == self.found
+        assert "Traceback" not in self.all
+
+    def ends_at_x(self) -> None:
+        self.press("x")
+        self.until(" s: x was pressed.")
+        self.ends(0)

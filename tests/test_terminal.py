@@ -4,105 +4,24 @@ What a key does to the film is tested on a set clock, in test_run.py. Here a tes
 must come, however slow the machine is.
 """
 
-import contextlib
 import importlib.util
 import os
 import re
-import select
-import signal
+import shlex
 import socket
-import subprocess
 import sys
-import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from films import COMMAND, HERE, environment
+from films import COMMAND, PATIENCE_S, Terminal, quick
 
 if sys.platform == "win32":
     pytest.skip("needs a POSIX pseudo-terminal", allow_module_level=True)
 
-import fcntl
-import struct
 import termios
-
-PATIENCE_S = 30  # for what must come: only a test that fails waits so long
-
-
-def quick(change: str = "pass", pause_s: float = 0.01) -> list[str]:
-    """The program, with another pause to read each header in, and with a change to it."""
-    code = (f"import os, sys, time, airtrack, examples; examples.THINK_S = {pause_s}; "
-            f"examples.WAIT_S = {pause_s}; {change}; sys.exit(airtrack.main())")
-    return [sys.executable, "-c", code]
-
-
-def sit_down() -> None:
-    """At the terminal that is standard input. Ctrl-C works there, even if the tests ignore it."""
-    fcntl.ioctl(0, termios.TIOCSCTTY, 0)
-    for number in (signal.SIGINT, signal.SIGQUIT, signal.SIGHUP, signal.SIGTERM):
-        signal.signal(number, signal.SIG_DFL)
-
-
-class Terminal(contextlib.AbstractContextManager["Terminal"]):
-    """A program in a pseudo-terminal of its own, as somebody at the keyboard sees it."""
-
-    def __init__(self, *command: str, columns: int = 200, **changes: Any) -> None:
-        self.ours, self.theirs = os.openpty()
-        fcntl.ioctl(self.theirs, termios.TIOCSWINSZ, struct.pack("4H", 40, columns, 0, 0))
-        self.found = self.mode()
-        self.all, self.seen = "", 0  # all that came, and how much of it was waited for
-        self.program = subprocess.Popen(
-            command, stdin=self.theirs, stdout=self.theirs, stderr=self.theirs, cwd=HERE,
-            env=environment(**changes), start_new_session=True, preexec_fn=sit_down)
-
-    def __exit__(self, *_: object) -> None:
-        with contextlib.suppress(ProcessLookupError):
-            os.killpg(self.program.pid, signal.SIGKILL)
-        self.program.wait()
-        os.close(self.ours)
-        os.close(self.theirs)
-
-    def mode(self) -> list[Any]:
-        return termios.tcgetattr(self.ours)
-
-    def press(self, keys: str) -> None:
-        """Type keys, or send the signal of that name."""
-        if keys.startswith("SIG"):
-            self.program.send_signal(signal.Signals[keys])
-        else:
-            os.write(self.ours, keys.encode())
-
-    def read(self, wait_s: float) -> bool:
-        """Read some of what there is; False if nothing came in that time."""
-        is_ready = bool(select.select([self.ours], [], [], wait_s)[0])
-        if is_ready:
-            self.all += os.read(self.ours, 65536).decode(errors="replace")
-        return is_ready
-
-    def until(self, *texts: str) -> None:
-        """Wait until the texts have come, one after the other."""
-        deadline_s = time.monotonic() + PATIENCE_S
-        for text in texts:
-            while text not in self.all[self.seen:]:
-                assert time.monotonic() < deadline_s, f"no {text!r}: {self.all[-1000:]}"
-                self.read(0.05)
-            self.seen = self.all.index(text, self.seen) + len(text)
-
-    def ends(self, status: int) -> None:
-        """Wait for the end: with this status, without a traceback, the terminal as found."""
-        while self.program.poll() is None or self.read(0):
-            self.read(0.05)
-        assert self.program.returncode == status, self.all[-1000:]
-        assert self.mode() == self.found
-        assert "Traceback" not in self.all
-
-    def ends_at_x(self) -> None:
-        self.press("x")
-        self.until(" s: x was pressed.")
-        self.ends(0)
 
 
 @pytest.fixture
@@ -140,14 +59,14 @@ def test_a_key_or_a_signal_ends_the_run_and_leaves_the_terminal_as_it_was_found(
     film.press(key)
     film.until("Stopped after ", f" s: {why}.\r\n")
     film.ends(status)
-    following = f"Next: {Path(sys.executable).stem} airtrack.py 1\r\n"
+    following = f"Next: {Path(sys.executable).name} airtrack.py 1\r\n"
     assert (following in film.all) is (status == 0)
 
 
 def test_the_next_command_names_the_python_that_runs(tmp_path: Path) -> None:
-    (tmp_path / "python7").symlink_to(sys.executable)
-    with Terminal(str(tmp_path / "python7"), *quick()[1:], "1", "--frames=1") as terminal:
-        terminal.until("\r\nNext: python7 airtrack.py 2\r\n")
+    (tmp_path / "python7.1").symlink_to(sys.executable)
+    with Terminal(str(tmp_path / "python7.1"), *quick()[1:], "1", "--frames=1") as terminal:
+        terminal.until("\r\nNext: python7.1 airtrack.py 2\r\n")
         terminal.ends(0)
 
 
@@ -205,6 +124,17 @@ def test_a_signal_at_any_step_of_a_run_leaves_no_traceback_and_the_terminal_as_i
                   f"{place} = lambda *a: {calls}")
         with Terminal(*quick(change), "--frames", "1") as terminal:
             terminal.ends(status)
+
+
+def test_a_film_that_is_killed_while_it_is_stopped_ends_when_the_shell_takes_it_up_again() -> None:
+    with Terminal("bash", "--norc", "--noprofile", "-i", PS1="% ") as shell:
+        shell.until("% ")
+        for line, told in ((" ".join(map(shlex.quote, quick())), "FPS"), ("\x1a", "Stopped"),
+                           ("kill %1", "% "), ("kill %1", "% "), ("fg", "s: SIGTERM."),
+                           ("echo status $?", "status 143"), ("exit", "exit")):
+            shell.press(line if line == "\x1a" else f"{line}\n")
+            shell.until(told)
+        shell.ends(0)
 
 
 def test_a_signal_that_was_ignored_from_the_start_stays_ignored() -> None:

@@ -15,7 +15,7 @@ from typing import NamedTuple
 import pytest
 from PIL import ImageGrab
 
-from films import COMMAND, HERE, environment
+from films import COMMAND, HERE, PATIENCE_S, Terminal, environment, quick
 
 # Pygame itself is not imported here: it would set environment variables that a run then inherits.
 HAS_PYGAME = importlib.util.find_spec("pygame") is not None
@@ -23,9 +23,9 @@ MISSING = [name for name in ("Xvfb", "xdotool") if shutil.which(name) is None]
 MISSING += [] if HAS_PYGAME else ["pygame"]
 needs_window = pytest.mark.skipif(bool(MISSING), reason=f"not installed: {', '.join(MISSING)}")
 
-PATIENCE_S = 30  # for what must come: only a test that fails waits so long
+WAITING = "waiting Enter: begin p: hold x: quit"
 RUNNING, PAUSED = "running p: pause s: step x: quit", "PAUSED p: resume s: step x: quit"
-WHITE, BLACK, DARK_ORANGE = (255, 255, 255), (0, 0, 0), (255, 140, 0)
+BLUE, WHITE, BLACK, DARK_ORANGE = (173, 216, 230), (255, 255, 255), (0, 0, 0), (255, 140, 0)
 
 
 class Screen(NamedTuple):
@@ -60,8 +60,11 @@ class Film:
     def __init__(self, screen: Screen, process: "subprocess.Popen[bytes]", out: Path) -> None:
         self.screen, self.process, self.out = screen, process, out
         self.window = screen.window_of(process)
-        self.shows(RUNNING, WHITE)
+        self.shows(WAITING, BLUE)
+        assert set(self.face(margin_px=3)) == {BLUE}  # no word is cut off
         screen.xdotool("windowfocus", "--sync", self.window)
+        self.press("Return")
+        self.shows(RUNNING, WHITE)
 
     def press(self, *keys: str) -> None:
         self.screen.xdotool("key", *keys)
@@ -120,10 +123,10 @@ def film(screen: Screen, tmp_path: Path) -> Iterator[Film]:
 
 
 @needs_window
-def test_caption_and_face_say_which_keys_there_are_and_whether_the_film_is_paused(
+def test_caption_and_face_say_which_keys_there_are_and_whether_the_film_waits_runs_or_is_paused(
         film: Film) -> None:
     assert film.place() == [60, 60, 300, 20]  # away from the film's newest line
-    assert set(film.face(margin_px=3)) == {WHITE}  # no word is cut off
+    assert set(film.face(margin_px=3)) == {WHITE}
     film.press("p")
     film.shows(PAUSED, DARK_ORANGE)
     assert set(film.face(margin_px=3)) == {DARK_ORANGE}
@@ -155,8 +158,6 @@ def test_other_keys_in_the_window_do_nothing(film: Film) -> None:
 
 @needs_window
 def test_closing_the_window_quits(screen: Screen) -> None:
-    from test_terminal import Terminal, quick
-
     close = "pygame.event.post(pygame.event.Event(pygame.QUIT))"  # as a click on its x does
     program = quick("import pygame; real = airtrack.step; "
                     f"airtrack.step = lambda *a: [{close}, real(*a)][1]")
@@ -167,8 +168,6 @@ def test_closing_the_window_quits(screen: Screen) -> None:
 
 @needs_window
 def test_window_and_terminal_serve_together_and_a_signal_ends_both(screen: Screen) -> None:
-    from test_terminal import Terminal, quick
-
     with Terminal(*quick(pause_s=1e6), DISPLAY=screen.name, SDL_VIDEODRIVER=None) as terminal:
         terminal.until("Keys here and in the little window: p ", "+06 s, ")
         terminal.press("p")
