@@ -29,7 +29,6 @@ from contextlib import nullcontext
 from dataclasses import Field, dataclass, field, fields, replace
 from functools import cache
 from itertools import count
-from pathlib import Path
 from statistics import fmean
 from typing import Any
 
@@ -42,12 +41,12 @@ from examples import EXAMPLES, OWN_SCENE, Keys, taken_keys
 #     wall_m       the position of a wall (m)
 #     CR           the coefficient of restitution: speed after a bounce / speed before
 #
-# v changes during the frame. Euler's methods hold it constant: forward takes the frame's first v,
-# backward (for a constant a the same as semi-implicit Euler) its last. Both are of first order:
-# half the dt, half the error after a given time. exact has no error at any dt, for a constant a.
-# Euler's points lie on a true flight, though with another first v: the v that a step uses is that
-# flight's v in mid-step. forward returns the next step's v, half a step later than its x; backward
-# returns the v just used, half a step earlier than its x. Section 2 needs this.
+# v changes during the frame. Euler's methods hold it constant: forward takes it from the frame's
+# start, backward (for a constant a the same as semi-implicit Euler) from its end. Both are of first
+# order: half the dt, half the error after a given time. exact has no error, for a constant a.
+# Euler's points lie on a true flight, one with another starting v: the v that a step uses is that
+# flight's v in mid-step. forward returns the next step's v: it is the flight's half a step later
+# than its x. backward returns the v just used, half a step earlier than x. Section 2 needs this.
 # E = v^2/2 - a x is the car's energy per kilogram. In free flight it should not change.
 
 State = tuple[float, float]  # x_m, v_mps
@@ -69,22 +68,21 @@ MOTIONS = {"forward": forward, "backward": backward, "exact": exact}  # name a n
 
 
 # ==== 2. Colliding: the stickiness corrections ==================================================
-#     overlap      how far beyond a wall the move ended (m)
 #     off, into    off a wall is back towards the track; into it is the other way
 #     g            the pull into the wall (m/s^2); below 0, it is a pull off the wall
 #
-# A move from the track to beyond a wall has missed a bounce: the car may stick there. A correction
-# takes the move's x and v, the wall, a and CR, and returns better ones. The corrections differ in
-# what the car does from the bounce to the frame's end. (replay redoes the whole move.)
+# If a move ends beyond a wall, the car may stick there. So a correction takes the move's x and v,
+# the wall, a and CR, and returns new x and v. The corrections differ in what the car does from the
+# bounce to the frame's end. (replay redoes the whole move.)
 
 def none(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Reverse v, but leave the car beyond the wall: a trap.
 
-    Where the move out is too short, v is reversed once more, now into the wall, and so on: the car
-    is caught. By any motion CR < 1 can do that. At CR = 1 backward can if g > 0, which slows v
-    before the move out; forward can if g < 0, which slowed v after the move in. Caught, if g > 0,
-    backward sinks by g dt^2/(1 + CR) a frame (example 3) and exact, at CR < 1, more slowly;
-    forward creeps out, if CR > 0, and hops on.
+    If the next move does not bring it out, v is reversed once more, now into the wall, and so on:
+    the car is caught. The move out may be too short by any motion at CR < 1; at CR = 1, in equal
+    frames, by backward if g > 0, as the pull slows v before it, and by forward if g < 0, as the
+    pull slowed v after the move in. At CR < 1 the to and fro dies down; then, if g > 0, backward
+    sinks by g dt^2/(1 + CR) a frame (example 3), exact less, and forward creeps out, if CR > 0.
     """
     return x_m, -CR * v_mps
 
@@ -100,31 +98,30 @@ def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -
     overlap_m = x_m - wall_m
     return wall_m - CR * overlap_m, -CR * v_mps
 
-# The law of the hops explains chart and map (sections 8, 9). A car hops on the wall that it is
-# pulled to, and each hop should last CR times as long as the one before. Count a hop in lines of
-# the film, from a line in which a bounce is found to the next such line. Then, on average,
-#     next = CR (hop + k) + k        where k is the motion's k plus the correction's:
-#                 k  =  p  +  q                      k  =  p  +  q
-#     forward     1    1/2   1/2         surface    1/2    0    1/2
-#     exact       0     0     0          rebound     1    1/2   1/2
-#     backward   -1   -1/2  -1/2         none        0 at CR = 1; below, it soon catches the car
+# The law of the hops explains chart and map. A car hops on the wall that it is pulled to, and each
+# hop should last CR times as long as the one before. Count a hop in lines of the film, from one in
+# which a bounce is found to the next such line. Then, on average over how late bounces are found,
+#     next = CR (hop + k) + k, where k is the motion's number plus the correction's:
+#     forward 1    exact 0    backward -1         surface 1/2    rebound 1    none 0 (at CR = 1)
 # Why? (1) In each frame the pull changes v by g dt. So a hop's first speed, off the wall (v after
-# the correction), and its last, into the wall (v before the next one), add up to hop g dt.
-# (2) Draw the true flight through the hop's positions, on to the wall at both ends: it leaves and
-# meets the wall at one speed. The first speed is the flight's p frames after it has left, p g dt
-# below that speed; the last is the flight's q frames after it has met the wall, q g dt above it.
-# So last - first = k g dt, and since the bounce makes CR times the last speed the next first:
-#     first = (hop - k) g dt/2        last = (hop + k) g dt/2        next first = CR last
-# (3) p and q are the motion's plus the correction's. forward's v is half a frame later than its x,
-# backward's half a frame earlier. A bounce is found at its frame's end, up to a frame late, so q is
-# 1/2 on average. surface then starts from the wall; rebound as far off it as half a frame carries
-# it, not slowed on that way, so on a flight that left half a frame before; none (at CR = 1) as deep
-# as it came in, so as early as it was found late: p = -q.
-# Where it leads. At CR = 1 a hop is 2 k lines longer than the one before. If k > 0, hops grow up to
-# the other wall; at CR < 1 long hops shrink towards n = k (1 + CR)/(1 - CR) lines, at any dt. But
-# some hop on the way repeats itself, its bounces all equally late (found, at CR 0.6 to 0.95: 0.7 n
-# to 2 n lines). If k < 0, hops shrink until the car is on the wall after every frame. If k = 0,
-# luck decides: how late each bounce is found. All this in frames of one length, many to a hop.
+# the correction), and its last, into the wall (v before the next one), add up to hop times g dt.
+# (2) Draw the true flight through the hop's positions, to where it crosses the wall at both ends.
+# It leaves and meets the wall at one speed, w. The hop's first speed is the flight's speed p frames
+# after leaving, w - p g dt; its last is the flight's speed q frames after meeting the wall,
+# w + q g dt. So last - first = (p + q) g dt. With k = p + q and (1):
+#     first = (hop - k) g dt/2        last = (hop + k) g dt/2        next hop's first = CR last
+# (3) p and q are each the motion's part plus the correction's. forward's v is half a frame later
+# than its x: 1/2 to p and q. backward's is half a frame earlier: -1/2. A bounce is found at its
+# frame's end, up to a frame late, so any correction's q is 1/2 on average. surface starts the next
+# hop on the wall: p = 0. rebound starts it where, not slowed, it would be after half a frame: the
+# true flight with this x and v left the wall half a frame before, faster, p = 1/2. none starts it
+# where the car was found: at CR = 1 that flight leaves half a frame later, p = -1/2.
+# Where it leads, in equal frames and hops of many frames. If k < 0, hops shrink until the car is on
+# the wall after every frame (with none: caught). If k > 0, at CR = 1 each hop is 2 k lines longer,
+# until the other wall; at CR < 1 long hops shrink towards n = k (1 + CR)/(1 - CR) lines, at any dt.
+# A hop may repeat on the way, its bounces all equally late: trials at CR 0.6 to 0.95 ended at 0.7 n
+# to 2 n lines. If k = 0, hops are right but for luck in how late bounces are found. (With none at
+# CR < 1 any bounce may catch the car.)
 
 def arrival(d_m: float, u_mps: float, a_mps2: float) -> tuple[float, float]:
     """How long to a wall d_m ahead, and how fast there: t_s, w_mps. u and a are + towards it."""
@@ -160,7 +157,7 @@ def setting(default: Any, meaning: str, allowed: Any = (False, True), unit: str 
 
 @dataclass(frozen=True)
 class Scene:
-    """The settings; BadInput (a ValueError) for a wrong one. Only x and v change in a run."""
+    """The settings, which no run changes; BadInput (a ValueError) for a wrong one."""
 
     x_m: float = setting(1.1, "starting position", (-1000, 1000), "m")
     v_mps: float = setting(0.0, "starting velocity, positive to the right", (-1000, 1000), "m/s")
@@ -203,7 +200,7 @@ def step(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> tuple[float, fl
     is_beyond = on_track_m != free_m
     if correction is not None and is_beyond:
         return *correction(free_m, free_mps, on_track_m, scene.a_mps2, scene.CR), free_m
-    # A move that ends on the track can have been beyond a wall only if v has changed its sign.
+    # replay. A move that ends on the track can have been beyond a wall only if v changed its sign.
     if correction is None and (is_beyond or v_mps * free_mps < 0):
         x_m, v_mps = replay(scene, x_m, v_mps, dt_s)
         is_bounce = is_beyond or v_mps != free_mps  # without one v is exactly the move's
@@ -215,11 +212,11 @@ GRAZE_M = 5e-11  # far above the round-off of a position
 def replay(scene: Scene, x_m: float, v_mps: float, t_s: float) -> State:
     """Replace the move: follow the exact motion from the frame's start, from wall to wall.
 
-    Right for any frame, with several bounces (example 15) or infinitely many. Think of a ball in a
+    Right for several bounces (example 15) or infinitely many, but for grazes. Think of a ball in a
     room: gravity pulls it to the floor (without a pull, the left wall), h is its height. The loop
-    ends: trips to the ceiling take time, and without any hops() ends it. A ball that would pass the
-    ceiling by less than GRAZE_M misses it: 1e-16 off in h is 1e-8 off in v. A miss shifts it by up
-    to 4e-5 m, by default: 4 sqrt(room GRAZE_M).
+    ends: trips to the ceiling take time, and without them hops() ends it. A ball that would pass
+    the ceiling by less than GRAZE_M misses it: d below it v is sqrt(2 g d), so 1e-16 off in d is
+    1e-8 off in v. A miss shifts it by up to 4 sqrt(room GRAZE_M): 4e-5 m with the default walls.
     """
     up, floor_m = (-1, scene.right_edge_m) if scene.a_mps2 > 0 else (1, scene.left_edge_m)
     room_m, g_mps2, CR = scene.right_edge_m - scene.left_edge_m, abs(scene.a_mps2), scene.CR
@@ -296,11 +293,11 @@ def details_text(x_m: float, v_mps: float, fps: float, true_m: float | None) -> 
 def planned(scene: Scene) -> Iterator[tuple[float, float]]:
     """Yield how long each frame should last, and the target rate in FPS; the same in every run."""
     for frame in count(1):
-        fraction = 0.618 * frame % 1  # the golden ratio's: it spreads the lengths evenly
+        fraction = 0.618 * frame % 1  # 0.618, from the golden ratio, spreads the lengths evenly
         yield (1 + scene.jitter * (2 * fraction - 1)) / scene.fps_target, scene.fps_target
 
 STALL_S, STALL_FRAMES = 0.15, 1.5  # longer than both is a stall: a dragged window, say
-LATE_S = 0.02  # a delay up to this is made up for by the next frames
+LATE_S = 0.02  # a delay up to this, or of a frame if longer, is made up for by the next frames
 
 def paced(scene: Scene, keys: Keys) -> Iterator[tuple[float, float]]:
     """Wait until each frame is due. Yield how long the last one took, and the rate in FPS.
@@ -334,10 +331,12 @@ def is_at_rest(scene: Scene, v_mps: float, last_m: deque[float]) -> bool:
     In the last frames its mean distance from the wall is at most 1 mm, and its v at most what the
     pull adds in that time. (By Euler's methods a car that leans on a wall may have some v.)
     """
-    is_held = abs(v_mps) <= abs(scene.a_mps2) * len(last_m) / scene.fps_target
-    return len(last_m) == last_m.maxlen and is_held and any(
-        side * scene.a_mps2 >= 0 and sum(abs(x_m - wall_m) for x_m in last_m) <= 0.001 * len(last_m)
-        for side, wall_m in ((-1, scene.left_edge_m), (1, scene.right_edge_m)))
+    side = scene.a_mps2 or last_m[-1] - (scene.left_edge_m + scene.right_edge_m) / 2
+    wall_m = scene.right_edge_m if side > 0 else scene.left_edge_m
+    most_m = 0.001 * len(last_m)  # for the sum of all distances, and so for the newest
+    return (abs(last_m[-1] - wall_m) <= most_m and len(last_m) == last_m.maxlen
+            and abs(v_mps) <= abs(scene.a_mps2) * len(last_m) / scene.fps_target
+            and sum(abs(x_m - wall_m) for x_m in last_m) <= most_m)
 
 def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None:
     """Film the scene until a key, the car at rest or max_frames ends it, and say which it was."""
@@ -347,7 +346,7 @@ def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None
     last_m = deque[float](maxlen=max(10, round(scene.fps_target / 3)))  # 1/3 s, at least 10
     frame, t_s, why = 0, 0.0, "that is the frame limit"
     beats = paced(scene, keys) if keys else planned(scene)
-    for frame, (length_s, fps) in zip(range(1, max_frames + 1), beats):
+    for frame, (length_s, fps) in zip(range(1, max_frames + 1), beats):  # range ends without a wait
         # Move and settle.
         dt_s = length_s if scene.use_observed_dt else 1 / scene.fps_target
         t_s += dt_s
@@ -399,8 +398,8 @@ def say(text: str, indent: int = 0) -> None:
 SPAN_S, CUTS = 20, 10  # of chart and map: simulated seconds, runs of each method
 MEASURED = ("The scene's own motion, correction and rate do not matter, nor do jitter and observed "
             "dt: all frames are equally long. Each method runs ten times for 20 simulated seconds: "
-            "once from the scene's own start, and nine more times with a shorter first frame, so "
-            "that the car meets the walls at another point of a frame. The worst run counts.")
+            "once from the scene's start, and nine times from the true state a part of a frame "
+            "later, so that the car meets the walls at another point of a frame. The worst counts.")
 CHART_FPS = (10, 30, 60, 120, 240, 480, 960, 1920, 3840)  # multiples of 10, for simulate
 SERIES = {"a": ("backward", "surface"), "b": ("backward", "rebound"), "c": ("exact", "rebound"),
           "d": ("exact", "rewind"), "e": ("exact", "replay")}
@@ -497,7 +496,8 @@ def new_figure(file: str) -> Any:
         from matplotlib.figure import Figure
         return Figure(figsize=(8, 6), dpi=150, layout="constrained")
     except Exception as fault:  # a broken one may raise anything
-        raise BadInput(f"--save needs matplotlib, pip install \".[chart]\": {fault}") from fault
+        how = ', pip install ".[chart]"' if isinstance(fault, ModuleNotFoundError) else " to work"
+        raise BadInput(f"--save needs matplotlib{how}: {str(fault) or repr(fault)}") from fault
 
 def draw(figure: Any, points: Points, pixel_m: float, heading: str) -> None:
     """Draw the points with matplotlib as well."""
@@ -506,9 +506,9 @@ def draw(figure: Any, points: Points, pixel_m: float, heading: str) -> None:
         xscale="log", yscale="log", xlabel=f"largest error in {SPAN_S} s (m): better to the left",
         ylabel="processor time for a simulated second (\N{MICRO SIGN}s):\nbetter upwards")
     axes.invert_yaxis()
-    for letter, series in points.items():
+    for (letter, series), mark in zip(points.items(), "oxD+v"):
         errors_m = [max(error_m, 1e-16) for error_m, _ in series]  # 0 has no logarithm
-        axes.plot(errors_m, [us for _, us in series], "o-", label=" + ".join(SERIES[letter]))
+        axes.plot(errors_m, [us for _, us in series], f"{mark}-", label=" + ".join(SERIES[letter]))
     axes.axvline(pixel_m, color="black", linestyle="--", label=f"one drawn pixel, {pixel_m:.2g} m")
     figure.legend(loc="outside lower center", ncols=3, title="Each line begins at "
                   f"{CHART_FPS[0]} FPS, at the top, and ends at {CHART_FPS[-1]} FPS")
@@ -524,7 +524,7 @@ def chart(scene: Scene, heading: str, file: str | None) -> None:
             draw(figure, points, 1 / scene.m_to_px, heading)
             figure.savefig(file, format=file[-3:])  # or it would write .svg as .svg.png
         except Exception as fault:  # whatever matplotlib or the disk refuses
-            raise BadInput(f"--save {file!r}: {fault}") from fault
+            raise BadInput(f"--save {file!r}: {str(fault) or repr(fault)}") from fault
         print(f"\nSaved as {file!a}.")
 
 
@@ -551,8 +551,7 @@ def verdict(scene: Scene, fps: int, cut: int) -> str:
         return "X"
     if min(beyond_m[late:]) > 0 or max(beyond_m[late:]) < 0:
         return "S"
-    error_m = max(abs(x_m - true_m) for x_m, _, true_m, _ in states)
-    if error_m <= 1 / scene.m_to_px:
+    if max(abs(x_m - true_m) for x_m, _, true_m, _ in states) <= 1 / scene.m_to_px:
         return "-"
     gain = fmean((v_mps**2 - true_mps**2) / 2 - scene.a_mps2 * (x_m - true_m)
                  for x_m, v_mps, true_m, true_mps in states[late:])  # in E
@@ -566,10 +565,10 @@ def cell(found: set[str]) -> str:
         return "W"
     return worst if len(found) == 1 else worst.lower()
 
-def stability(scene: Scene, heading: str) -> None:
+def stability(scene: Scene, whose: str, heading: str) -> None:
     """Print the map: a row for each method, a column for each rate, a letter for ten runs."""
     say(f"Stability. {heading} {MEASURED}")
-    print(f"\n{heading.split('. ')[0]:20.20}" + "".join(f"{fps:6}" for fps in MAP_FPS), "FPS")
+    print(f"\n{whose:20}" + "".join(f"{fps:6}" for fps in MAP_FPS), "FPS")
     for motion in MOTIONS:
         for correction in CORRECTIONS:
             if motion == "exact" or correction not in EXACT_ONLY:
@@ -583,7 +582,7 @@ def stability(scene: Scene, heading: str) -> None:
         print(f"{inked(letter)}  {meaning}")
     say("From the worst to the best. A capital: all ten runs; a small letter: some of the ten, the "
         "others better, further down. Judged every 0.1 s, or frame if longer. At CR < 1 a G car "
-        "hops on or, at 1 or 2 FPS, lies at a wall with a large v.")
+        "hops on or, at low rates, lies at a wall with a large v.")
 
 
 # ==== 10. Checking a scene ======================================================================
@@ -628,7 +627,7 @@ def check(scene: Scene) -> None:
 
 SETTINGS = {row.name: row for row in fields(Scene)}
 COMMANDS = ("chart", "stability")
-PYTHON = Path(sys.executable).stem  # python3, where there is no python
+PYTHON = os.path.basename(sys.executable).removesuffix(".exe")  # python3 where there is no python
 OPTIONS = {"d": "the film", "--fast": "the film", "--frames": "the film", "--save": "chart"}
 
 def in_words(scene: Scene) -> str:
@@ -646,11 +645,10 @@ def in_words(scene: Scene) -> str:
             f"{scene.left_edge_m:g} and {scene.right_edge_m:g} m; CR={scene.CR:g}.")
 
 def method_in_words(scene: Scene) -> str:
-    """Motion, correction, frame rate and, where they are set, observed dt and jitter, in words."""
-    others = "".join(f", {name}={getattr(scene, name)}" for name in ("use_observed_dt", "jitter")
-                     if getattr(scene, name))
-    return (f"Motion {scene.motion}, correction {scene.correction}, {scene.fps_target:g} frames a "
-            f"second{others}.")
+    """Motion, correction, frame rate and, where they are set, jitter and observed dt, in words."""
+    observed = ", each step as long as the frame before" * scene.use_observed_dt
+    return (f"Motion {scene.motion}, correction {scene.correction}, {scene.fps_target:g}"
+            f"{' irregular' * (scene.jitter > 0)} frames a second{observed}.")
 
 def fitted(scene: Scene, details: bool) -> Scene:
     """The scene with picture and zoom shrunk together until line and details fit the terminal."""
@@ -684,17 +682,18 @@ def film(scene: Scene, number: int, title: str, options: dict[str, str]) -> int:
     say(f"{in_words(scene)} {method_in_words(scene)}")
     tell_of_walls(scene)
     view = fitted(scene, details)
+    is_changed = number in EXAMPLES and scene != Scene(**example.settings)
+    as_it_is = "(About the example as it is, without your changes:) " * is_changed
     with nullcontext() if "--fast" in options else taken_keys() as keys:
-        for paragraph in keys.help(example.look_for) if keys else [example.look_for]:
+        question = as_it_is + example.look_for
+        for paragraph in keys.help(question) if keys else [question]:
             say(paragraph)
         if keys:
             keys.leave_time()
         print(flush=True)
         run(view, details, max_frames, keys)
         if keys and keys.frame and not keys.status:
-            if number in EXAMPLES and scene != Scene(**example.settings):
-                say("(What follows is about the example as it is, without your changes.)")
-            say(example.seen)
+            say(as_it_is + example.seen)
             following = number + 1 if number + 1 in EXAMPLES else "chart"
             if number in EXAMPLES and keys.where():
                 print(f"Next: {PYTHON} airtrack.py {following}", flush=True)
@@ -773,7 +772,7 @@ def obey(words: list[str]) -> int:
     beyond = "" if on_track.x_m == scene.x_m else " Here all methods start on that wall."
     heading = f"{whose}{changed}. {in_words(scene)}{beyond}"
     if command == "stability":
-        stability(on_track, heading)
+        stability(on_track, whose, heading)
         following = "That was the tour. README.md has exercises."
     else:
         chart(on_track, heading, given.get("--save"))

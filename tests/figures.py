@@ -75,8 +75,8 @@ def told_plainly(motion: str, correction: str, CR: float, fps: int, cut: int) ->
     found: Samples = []
     for true_x, true_v in truth(CR, fps, cut):
         for _ in range(frames):
-            move = v * dt_s if motion == "forward" else (v - 2 * dt_s) * dt_s
-            x += v * dt_s - dt_s**2 if motion == "exact" else move
+            steps = {"forward": v, "backward": v - 2 * dt_s}
+            x += steps.get(motion, v - dt_s) * dt_s  # exact, and a reader's own: by the mean
             v -= 2 * dt_s
             wall = min(max(x, 0.25), 2.2)
             if x != wall:

@@ -70,7 +70,7 @@ def test_before_the_pause_the_question_stands_last_and_little_stands_beside_it(
         header = " ".join(play(f"{words} --frames 1").split("\n\n")[0].split())
         assert header.endswith(f" {question} {begins}")
         assert clock.frames_s[0] - began_s == pytest.approx(pause_s, abs=0.01)
-        beside = re.split(r" a second(?:, \w+=[^ ,]+)*\.? ", header)[1].replace(question, "")
+        beside = re.split(r" a second(?:, each step [a-z ]+)?\. ", header)[1].replace(question, "")
         assert len(beside.split()) <= 45
         assert len(question.split()) <= 31
 
@@ -113,6 +113,12 @@ def test_the_film_in_time_and_the_fast_one_have_the_same_frames(
         nominal_m = [1.1 + 0.1 * k for k in range(1, 31)]
         is_even = fast == pytest.approx(nominal_m, abs=0.0051)
         assert is_even is (not observed or jitter == 0)
+
+
+def test_the_true_car_takes_the_steps_of_the_car(play: Play) -> None:
+    errors_m = re.findall("err = (.*)", play("11 d show_exact_mark=True --fast --frames 99"))
+    assert len(errors_m) == 99
+    assert max(abs(float(error_m)) for error_m in errors_m) < 1e-9
 
 
 # Stalls and the observed dt.
@@ -296,15 +302,19 @@ def test_the_keys_are_told_and_the_next_example_is_named_where_there_are_any(
         assert "Next" not in play(f"{last} --frames 2")
 
 
-def test_after_the_film_it_is_told_what_was_to_be_seen(clock: Clock, play: Play) -> None:
-    as_it_is = "(What follows is about the example as it is, without your "
+def test_after_the_film_it_is_told_what_was_to_be_seen(
+        play: Play, monkeypatch: pytest.MonkeyPatch) -> None:
+    as_it_is = "(About the example as it is, without your changes:) "
     for words, is_changed in (("10", False), ("10 CR=1", False), ("10 CR=0.9", True),
                               ("99 v_mps=1", False)):
-        seen = (EXAMPLES.get(int(words[:2])) or examples.OWN_SCENE).seen
+        example = EXAMPLES.get(int(words[:2])) or examples.OWN_SCENE
         before, _, after = " ".join(play(words, t4="x").split()).partition(": x was pressed. ")
-        assert seen not in before
-        assert after == (f"{as_it_is}changes.) {seen}" if is_changed else seen)
-    assert ending(play("10", t1="x")).startswith("Stopped after 0 frames")
+        assert example.seen not in before
+        assert f". {as_it_is * is_changed}{example.look_for} It begins" in before
+        assert after == as_it_is * is_changed + example.seen
+    monkeypatch.setattr("sys.stdout.isatty", lambda: True)  # of 80 columns: no change to the scene
+    assert as_it_is not in play("10", t4="x")
+    assert play("10", t1="x").endswith("Stopped after 0 frames, t = 0.00 s: x was pressed.\n")
     assert ending(play("10 --frames 9 --fast")).startswith("Stopped after 9 frames")
 
 

@@ -1,12 +1,14 @@
-"""The table of settings: defaults and ranges."""
+"""The table of settings: defaults and ranges, and the help that lists them."""
 
 import math
 import re
+from dataclasses import fields
 from typing import Any
 
 import pytest
 
-from airtrack import MOTIONS, Scene
+from airtrack import MOTIONS, Scene, main
+from examples import EXAMPLES
 
 BELOW, ABOVE = math.nextafter(-1000, -2000), math.nextafter(1000, 2000)
 
@@ -18,7 +20,7 @@ TABLE: list[tuple[str, Any, str, list[Any], list[Any]]] = [
     ("left_edge_m", 0.25, "a number from -1000 to 1000 m", [-1000, 2.19], [BELOW, ABOVE]),
     ("right_edge_m", 2.2, "a number from -1000 to 1000 m", [0.26, 1000], [BELOW, ABOVE]),
     ("CR", 0.8, "a number from 0 to 1", [0, 1, 0.5], [-1e-9, 1.0000001]),
-    ("motion", "backward", "forward, backward or exact", [*MOTIONS], ["Exact", 1]),
+    ("motion", "backward", " or ".join(", ".join(MOTIONS).rsplit(", ", 1)), [*MOTIONS], ["Exact"]),
     ("correction", "rebound", "none, surface, rebound, rewind or replay",
      ["none", "surface"], ["bounce", False]),
     ("fps_target", 30.0, "a number from 0.1 to 1000 1/s", [0.1, 1000], [0.0999, ABOVE]),
@@ -50,3 +52,21 @@ def test_walls_are_at_least_a_centimetre_apart_round_off_aside() -> None:
         Scene(left_edge_m=left_m, right_edge_m=right_m)
         with pytest.raises(ValueError, match=r"^right_edge_m must be at least 0\.01 m to the "):
             Scene(left_edge_m=left_m + 1e-6, right_edge_m=right_m)
+
+
+def test_help_lists_every_example_and_every_setting_with_unit_default_and_range(
+        monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    monkeypatch.setenv("COLUMNS", "60")
+    assert main(["-h"]) == 0
+    text = capsys.readouterr().out
+    for number, example in EXAMPLES.items():
+        assert f"\n  {number:2}  {example.title}\n" in text
+    usage, _, settings = text.partition("\nSettings")
+    assert max(map(len, usage.splitlines())) <= 80
+    assert max(map(len, settings.splitlines())) <= 60
+    _, *rows = re.sub(r"\n {9,}", " ", settings).splitlines()
+    for row, (name, default, allowed, *_), field in zip(rows, TABLE, fields(Scene), strict=True):
+        assert row.split()[:2] == [name, str(default)]
+        assert row.endswith(f"{field.metadata['meaning']} ({allowed})")
+    assert main(["3", "d", "--help", "ten"]) == 0
+    assert capsys.readouterr().out == text
