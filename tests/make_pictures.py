@@ -49,11 +49,12 @@ def screen(lines: list[str], columns: int) -> Image.Image:
 def main() -> None:
     lines = film()
     columns = max(map(len, lines))
-    frames = [screen(lines[:count], columns).quantize(8) for count in range(1, FRAMES + 1)]
+    counts = range(ROWS - 2, FRAMES + 1)  # from a full screen on
+    frames = [screen(lines[:count], columns).quantize(8) for count in counts]
     file = HERE / ".github" / "example-10.gif"
     frames[0].save(file, save_all=True, append_images=frames[1:], loop=0,
-                   duration=[100] * (FRAMES - 1) + [2000], optimize=False)
-    print(f"{file.relative_to(HERE)}: {FRAMES} frames, {file.stat().st_size // 1000} kB")
+                   duration=[100] * (len(frames) - 1) + [2000], optimize=False)
+    print(f"{file.relative_to(HERE)}: {len(frames)} frames, {file.stat().st_size // 1000} kB")
 
 
 if __name__ == "__main__":
