@@ -48,8 +48,7 @@ EXAMPLES = {
         "An air track: * is the car, | are the walls, and each line is one moment. Where will the "
         "car be after 45 s? Then end the film with x.",
         "From frame 2930 on (t = 44 s) it lies at the left wall, to which it is pulled. It lost 20 "
-        "% of its speed in each of 26 bounces. Now each frame pulls it into the wall and puts it "
-        "back.",
+        "% of its speed in each of 26 bounces. Now each frame pulls it in and puts it back.",
         details=True),
     1: Example("A first look", {
         "x_m": 2.0, "a_mps2": -1.5, "CR": 0.7, "show_collision_mark": False},
@@ -104,7 +103,7 @@ EXAMPLES = {
         "Example 7 at 10 FPS: the car moves up to 0.26 m in a frame. How near to the start mark "
         "does it come back? Watch four times, then press x.",
         "It comes back to 1.88 m, 12 cm short of the mark, then to the mark, and so on, "
-        "alternately. Backward Euler takes 1 cm of the way in each frame, 26 cm in a fall and the "
+        "alternately. Backward Euler takes 1 cm off the way in each frame, 26 cm in a fall and the "
         "rise after it. The rebound puts the car as far off the wall as it was beyond it, and does "
         "not slow it: so it gives back twice that distance. The first bounce gives back 2 * 7 = 14 "
         "cm, 12 too few. The next one gives back 2 * 19 = 38 cm, 12 too many."),
@@ -127,11 +126,11 @@ EXAMPLES = {
     12: Example("The exact solution, losing energy", EXACT | IRREGULAR | {"CR": 0.8},
         "Example 11, but the car keeps 80 % of its speed at each bounce, and the bounces come "
         "faster and faster. How many are there before it is at rest?",
-        "In the film 20: with d, v rises in so many lines. Truly infinitely many, all before t = "
-        "11.91 s, the Zeno point. But rewind can settle only one a frame. So the car hops on, at "
-        "last seen only by a 0, until the film ends in frame 130. Yet rewind is all that this "
-        "scene needs: it is up to 4 mm off in this film, less than a quarter of a column. With "
-        "correction=replay the car is at rest in frame 122."),
+        "With d one counts 20: lines in which v rises. Truly there are infinitely many, all before "
+        "t = 11.91 s, the Zeno point. But rewind can settle only one a frame. So the car hops on, "
+        "too low to see, until the film calls it at rest, in frame 130. Yet rewind is all that "
+        "this scene needs: it is up to 4 mm off here, less than a quarter of a column. With "
+        "correction=replay it is at rest in frame 122."),
     13: Example("Forward Euler beside the truth", {
         "x_m": 0.25, "v_mps": 2.48, "a_mps2": -2.0, "CR": 1.0, "motion": "forward",
         "fps_target": 10.0, "show_exact_mark": True},
@@ -144,9 +143,9 @@ EXAMPLES = {
     14: Example("Four metres a frame", QUICK,
         "The car moves 4 m a frame, on a track of 1.95 m. Does it stay between the walls? (< and "
         ">: out of the picture.) End the film with x.",
-        "The rebound puts it as far off the wall as it was beyond it: beyond the far wall, out to "
-        "the left (<), out to the right (>), alternately, 4.1 m further every other frame. It "
-        "still bounces off walls that it has left behind. In a minute it is 1.2 km away (see d)."),
+        "The rebound puts it as far off the wall as it was beyond it. That is beyond the far wall: "
+        "out to the left (<), then out to the right (>), and so on, 4.1 m further every other "
+        "frame. It bounces off walls that it has left behind. In a minute it is 1.2 km away."),
     15: Example("Four metres a frame, wall by wall", QUICK | {
         "motion": "exact", "correction": "replay"},
         "Example 14 by the exact solution, which settles every bounce. The car still moves 4 m a "
@@ -183,24 +182,25 @@ EXAMPLES = {
         "Elastic (CR=1): the o bounces on for ever. And the *? Count each hop's lines. (With d, v "
         "falls by 0.20 in each line, except where a bounce is found.)",
         "The hops of the * take 15, 14, 13 ... lines, down to 2 and 1, which are too low to see. "
-        "In frame 134 it is at rest. At CR = 1 each hop is 2 k lines longer than the one before, "
-        "and k is -1 for backward plus 1/2 for surface: one line shorter. Now predict another "
-        "pair: k is 1 for forward, 0 for exact; 1 for rebound, 0 for none. Count until the * meets "
-        "the right wall: add motion=exact, for one."),
+        "In frame 134 the film calls it at rest. At CR = 1 each hop is 2 k lines longer than the "
+        "one before, and k is a sum: -1 for backward, 1/2 for surface, so one line shorter. Now "
+        "predict another pair, with 1 for forward, 0 for exact, 1 for rebound, 0 for none. Count "
+        "until the * meets the right wall: add motion=exact, for one."),
     20: Example("Hops that lose speed, counted", {
         "x_m": 0.66, "v_mps": 0.75, "a_mps2": -2.0, "CR": 0.8, "motion": "exact",
         "fps_target": 10.0, "show_exact_mark": True},
         "Each bounce takes 20 % of the speed. Which comes to rest, o or *, and when? Count the "
         "hops of the * as in example 19. End with x.",
         "The hops of the * take 14, 12, 10 lines and, from frame 48 on (t = 4.8 s), 9 for ever, 20 "
-        "cm high. On average a hop is followed by one of CR (hop + k) + k lines, and k is 0 for "
-        "exact plus 1 for rebound: 0.8 (9 + 1) + 1 = 9. The o lies still from t = 7.05 s on, its "
-        "Zeno point, hidden by the wall. At a higher rate the hops end at about as many lines, so "
-        "they are lower. With motion=backward correction=surface the * rests, too."),
+        "cm high. On average a hop is followed by one of CR (hop + k) + k lines. Exact has k = 0, "
+        "rebound adds 1: so 14 by 13.0, and 9 by 0.8 (9 + 1) + 1 = 9. The o lies still from t = "
+        "7.05 s on, its Zeno point, hidden by the wall. At 30 or 60 FPS the hops end at 7 to 13 "
+        "lines, so they are lower; at 120 the film calls them rest. With motion=backward "
+        "correction=surface the * rests, too."),
 }
 OWN_SCENE = Example("Your own scene", {},
     "How far does the car get from each wall? Does it come to rest?",
-    "To go on, try another motion, correction or frame rate, one at a time. What does it change?")
+    "To go on, change one setting at a time (-h lists them all). What does it change?")
 
 
 # ==== The terminal's keys =======================================================================
