@@ -45,8 +45,8 @@ from examples import EXAMPLES, OWN_SCENE, Keys, taken_keys
 # start, backward (for a constant a the same as semi-implicit Euler) from its end. Both are of first
 # order: half the dt, half the error after a given time. exact has no error, for a constant a.
 # Euler's points lie on a true flight, one with another starting v: the v that a step uses is that
-# flight's v in mid-step. forward returns the next step's v: it is the flight's half a step later
-# than its x. backward returns the v just used, half a step earlier than x. Section 2 needs this.
+# flight's v in mid-step. forward returns the next step's v: the flight's v half a step later than
+# its x. backward returns the v just used, half a step earlier. Section 2 needs this.
 # E = v^2/2 - a x is the car's energy per kilogram. In free flight it should not change.
 
 State = tuple[float, float]  # x_m, v_mps
@@ -78,11 +78,11 @@ MOTIONS = {"forward": forward, "backward": backward, "exact": exact}  # name a n
 def none(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Reverse v, but leave the car beyond the wall: a trap.
 
-    If the next move does not bring it out, v is reversed once more, now into the wall, and so on:
-    the car is caught. The move out may be too short by any motion at CR < 1; at CR = 1, in equal
-    frames, by backward if g > 0, as the pull slows v before it, and by forward if g < 0, as the
-    pull slowed v after the move in. At CR < 1 the to and fro dies down; then, if g > 0, backward
-    sinks by g dt^2/(1 + CR) a frame (example 3), exact less, and forward creeps out, if CR > 0.
+    If the move out is shorter than the move in, the car may still be beyond. Then v is reversed
+    once more, now into the wall, and so on: the car is caught. CR < 1 shortens the move out. At
+    CR = 1, in equal frames, the pull does so by backward if g > 0, as it slows v first, and by
+    forward if g < 0, as it slowed v after the move in. At CR < 1 the reversals die down; then, if
+    g > 0, backward sinks by g dt^2/(1 + CR) a frame (example 3), exact less; forward creeps out.
     """
     return x_m, -CR * v_mps
 
@@ -100,9 +100,9 @@ def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -
 
 # The law of the hops explains chart and map. A car hops on the wall that it is pulled to, and each
 # hop should last CR times as long as the one before. Count a hop in lines of the film, from one in
-# which a bounce is found to the next such line. Then, on average over how late bounces are found,
+# which a bounce is found to the next such line. Then, on average over many starts,
 #     next = CR (hop + k) + k, where k is the motion's number plus the correction's:
-#     forward 1    exact 0    backward -1         surface 1/2    rebound 1    none 0 (at CR = 1)
+#     forward 1    exact 0    backward -1      surface 1/2    rebound 1    none 0, only at CR = 1
 # Why? (1) In each frame the pull changes v by g dt. So a hop's first speed, off the wall (v after
 # the correction), and its last, into the wall (v before the next one), add up to hop times g dt.
 # (2) Draw the true flight through the hop's positions, to where it crosses the wall at both ends.
@@ -112,16 +112,16 @@ def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -
 #     first = (hop - k) g dt/2        last = (hop + k) g dt/2        next hop's first = CR last
 # (3) p and q are each the motion's part plus the correction's. forward's v is half a frame later
 # than its x: 1/2 to p and q. backward's is half a frame earlier: -1/2. A bounce is found at its
-# frame's end, up to a frame late, so any correction's q is 1/2 on average. surface starts the next
-# hop on the wall: p = 0. rebound starts it where, not slowed, it would be after half a frame: the
-# true flight with this x and v left the wall half a frame before, faster, p = 1/2. none starts it
-# where the car was found: at CR = 1 that flight leaves half a frame later, p = -1/2.
+# frame's end, up to a frame late: with any correction 1/2 to q, on average. surface starts the next
+# hop on the wall: 0 to p. rebound starts it where half a frame without the pull would take it: a
+# flight with that x and v left the wall half a frame before, 1/2 to p. none starts it where the car
+# was found: at CR = 1 a flight with that x and v crosses the wall half a frame later, -1/2 to p.
 # Where it leads, in equal frames and hops of many frames. If k < 0, hops shrink until the car is on
-# the wall after every frame (with none: caught). If k > 0, at CR = 1 each hop is 2 k lines longer,
-# until the other wall; at CR < 1 long hops shrink towards n = k (1 + CR)/(1 - CR) lines, at any dt.
-# A hop may repeat on the way, its bounces all equally late: trials at CR 0.6 to 0.95 ended at 0.7 n
-# to 2 n lines. If k = 0, hops are right but for luck in how late bounces are found. (With none at
-# CR < 1 any bounce may catch the car.)
+# the wall after every frame (with none: caught). If k > 0, at CR = 1 hops grow, on average by 2 k
+# lines, until the car meets the other wall; at CR < 1 long ones shrink towards
+# n = k (1 + CR)/(1 - CR) lines, at any dt. Near n they repeat, their bounces all equally late: in
+# trials at CR 0.6 to 0.95 for ever, at 0.7 n to 2 n lines. If k = 0, each is CR times the one
+# before, on average. (With none any bounce at CR < 1 may catch the car.)
 
 def arrival(d_m: float, u_mps: float, a_mps2: float) -> tuple[float, float]:
     """How long to a wall d_m ahead, and how fast there: t_s, w_mps. u and a are + towards it."""
