@@ -14,11 +14,6 @@ PRECISE = Context(prec=60)
 TOO_SHORT_S = Decimal("1e-30")
 
 
-def positions(scene: Scene, times_s: list[Decimal]) -> Iterator[Decimal]:
-    """Where the car is at each of the times, which ascend."""
-    return (x for x, _ in states(scene, times_s))
-
-
 def states(scene: Scene, times_s: list[Decimal]) -> Iterator[tuple[Decimal, Decimal]]:
     """Position and velocity at each of the times, which ascend."""
     with localcontext(PRECISE):

@@ -52,6 +52,7 @@ def test_the_heading_says_what_is_measured_and_is_true(command: str, capsys: Cap
     assert "beyond" not in on_it
     assert same == rest
     assert "Example 10's scene. The car starts" in told()[0]
+    assert command == "chart" or told("99", "v_mps=1")[1].startswith("Your own scene     ")
 
 
 @pytest.mark.parametrize("command", ["chart", "stability"])

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 import airtrack
 from airtrack import Scene, step
-from reference import positions
+from reference import states
 
 
 def exact(**settings: float) -> Scene:
@@ -39,8 +39,8 @@ def largest_error_m(scene: Scene, frame_s: float, frames: int, samples: int = 8)
         if frame % every == 0:
             seen.append((frame, x_m))
     times_s = [frame * Decimal(frame_s) for frame, _ in seen]
-    pairs = zip(seen, positions(scene, times_s), strict=True)
-    return max(abs(float(Decimal(x_m) - true_m)) for (_, x_m), true_m in pairs)
+    pairs = zip(seen, states(scene, times_s), strict=True)
+    return max(abs(float(Decimal(x_m) - true_m)) for (_, x_m), (true_m, _) in pairs)
 
 
 @pytest.mark.parametrize("seed", range(10))
@@ -158,7 +158,7 @@ def test_a_car_that_overshoots_by_more_than_round_off_hits(beyond_m: float) -> N
     # by 2 s/|a|, s = sqrt(2 |a| beyond_m), and 2 m/s fast: at 1e-10 m that makes 4e-5 m.
     scene = exact(x_m=1.0, v_mps=math.sqrt(4 * (1.2 + beyond_m)), a_mps2=-2, CR=1)
     x_m, _, _ = step(scene, 1.0, scene.v_mps, 2.0)
-    true_m, = positions(scene, [Decimal(2)])
+    (true_m, _), = states(scene, [Decimal(2)])
     assert x_m == pytest.approx(float(true_m), abs=1e-7)
 
 

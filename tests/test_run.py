@@ -3,13 +3,14 @@
 import io
 import re
 import signal
+from collections import deque
 from collections.abc import Callable
 from itertools import islice, pairwise
 
 import pytest
 
 import examples
-from airtrack import PYTHON, Scene, main, planned
+from airtrack import PYTHON, Scene, is_at_rest, main, planned
 from clock import Clock, positions_m
 from examples import EXAMPLES
 
@@ -183,6 +184,12 @@ def test_at_rest_is_a_third_of_a_second_within_a_millimetre_of_a_wall(
     "1 correction=none", "10 correction=none CR=0.8", "20 motion=backward correction=none"])
 def test_a_car_that_swings_about_a_wall_is_not_at_rest(words: str, play: Play) -> None:
     assert ending(play(f"{words} --fast --frames 3000")).endswith("frame limit.")
+
+
+@pytest.mark.parametrize(("off_mm", "rests"), [((0,) * 9 + (9,), True), ((5, -5) * 5, False)])
+def test_the_mean_of_the_distances_decides_on_rest(off_mm: tuple[int, ...], rests: bool) -> None:
+    last_m = deque((0.25 + mm / 1000 for mm in off_mm), maxlen=10)
+    assert is_at_rest(Scene(a_mps2=-2), 0.0, last_m) is rests
 
 
 @pytest.mark.parametrize("fps", [30, 240, 1000])

@@ -23,6 +23,8 @@ if sys.platform == "win32":
 
 import termios
 
+PROGRAM = shlex.join(quick())
+
 
 @pytest.fixture
 def film() -> Iterator[Terminal]:
@@ -126,13 +128,15 @@ def test_a_signal_at_any_step_of_a_run_leaves_no_traceback_and_the_terminal_as_i
             terminal.ends(status)
 
 
-def test_a_film_that_is_killed_while_it_is_stopped_ends_when_the_shell_takes_it_up_again() -> None:
+@pytest.mark.parametrize("lines", [
+    {f"{PROGRAM}\n": "FPS", "\x1a": "Stopped", "kill %1\n": "% "},
+    {f"{PROGRAM} &\n": "% ", "until jobs | grep -q Stopped; do sleep 0.1; done\n": "% "}])
+def test_a_film_that_is_killed_while_it_is_stopped_ends_when_the_shell_takes_it_up_again(
+        lines: dict[str, str]) -> None:
     with Terminal("bash", "--norc", "--noprofile", "-i", PS1="% ") as shell:
-        shell.until("% ")
-        for line, told in ((" ".join(map(shlex.quote, quick())), "FPS"), ("\x1a", "Stopped"),
-                           ("kill %1", "% "), ("kill %1", "% "), ("fg", "s: SIGTERM."),
-                           ("echo status $?", "status 143"), ("exit", "exit")):
-            shell.press(line if line == "\x1a" else f"{line}\n")
+        for keys, told in (*lines.items(), ("kill %1\n", "% "), ("fg\n", "s: SIGTERM."),
+                           ("echo status $?\n", "status 143"), ("exit\n", "exit")):
+            shell.press(keys)
             shell.until(told)
         shell.ends(0)
 
