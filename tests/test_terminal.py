@@ -23,8 +23,6 @@ if sys.platform == "win32":
 
 import termios
 
-PROGRAM = shlex.join(quick())
-
 
 @pytest.fixture
 def film() -> Iterator[Terminal]:
@@ -128,17 +126,22 @@ def test_a_signal_at_any_step_of_a_run_leaves_no_traceback_and_the_terminal_as_i
             terminal.ends(status)
 
 
-@pytest.mark.parametrize("lines", [
-    {f"{PROGRAM}\n": "FPS", "\x1a": "Stopped", "kill %1\n": "% "},
-    {f"{PROGRAM} &\n": "% ", "until jobs | grep -q Stopped; do sleep 0.1; done\n": "% "}])
-def test_a_film_that_is_killed_while_it_is_stopped_ends_when_the_shell_takes_it_up_again(
-        lines: dict[str, str]) -> None:
+def test_a_film_that_is_killed_while_it_is_stopped_ends_when_the_shell_takes_it_up_again() -> None:
+    stopped = "until jobs | grep -q Stopped; do sleep 0.1; done"
     with Terminal("bash", "--norc", "--noprofile", "-i", PS1="% ") as shell:
-        for keys, told in (*lines.items(), ("kill %1\n", "% "), ("fg\n", "s: SIGTERM."),
-                           ("echo status $?\n", "status 143"), ("exit\n", "exit")):
-            shell.press(keys)
+        for line, told in ((f"{shlex.join(quick())} &", "% "), (stopped, "% "), ("kill %1", "% "),
+                           ("fg", "s: SIGTERM."), ("echo status $?", "status 143"), ("exit", "")):
+            shell.press(f"{line}\n")
             shell.until(told)
         shell.ends(0)
+
+
+def test_a_terminal_that_refuses_to_change_is_no_error() -> None:
+    change = "import termios as t, unittest.mock as m; t.tcsetattr = m.Mock(side_effect=t.error)"
+    with Terminal(*quick(change)) as terminal:
+        terminal.until("FPS")
+        terminal.press("x\n")
+        terminal.ends(0)
 
 
 def test_a_signal_that_was_ignored_from_the_start_stays_ignored() -> None:
