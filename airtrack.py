@@ -80,9 +80,9 @@ def none(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> S
 
     If the move out is shorter than the move in, the car may still be beyond. Then v is reversed
     once more, now into the wall, and so on: the car is caught. CR < 1 shortens the move out. At
-    CR = 1, in equal frames, the pull does so by backward if g > 0, as it slows v first, and by
-    forward if g < 0, as it slowed v after the move in. At CR < 1 the reversals die down; then, if
-    g > 0, backward sinks by g dt^2/(1 + CR) a frame (example 3), exact less; forward creeps out.
+    CR = 1, in equal frames, the pull shortens it: with backward if g > 0, slowing v first; with
+    forward if g < 0, having slowed v after the move in. At CR < 1 the reversals die down; then, if
+    g > 0, backward sinks by g dt^2/(1 + CR) a frame (example 3), exact less, and forward gets out.
     """
     return x_m, -CR * v_mps
 
@@ -109,19 +109,19 @@ def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -
 # It leaves and meets the wall at one speed, w. The hop's first speed is the flight's speed p frames
 # after leaving, w - p g dt; its last is the flight's speed q frames after meeting the wall,
 # w + q g dt. So last - first = (p + q) g dt. With k = p + q and (1):
-#     first = (hop - k) g dt/2        last = (hop + k) g dt/2        next hop's first = CR last
+#     first = (hop - k) g dt/2,  last = (hop + k) g dt/2,  next hop's first = CR last: the law
 # (3) p and q are each the motion's part plus the correction's. forward's v is half a frame later
-# than its x: 1/2 to p and q. backward's is half a frame earlier: -1/2. A bounce is found at its
-# frame's end, up to a frame late: with any correction 1/2 to q, on average. surface starts the next
+# than its x: 1/2 to each. backward's is half a frame earlier: -1/2. A bounce is found at its
+# frame's end, up to a frame late: any correction adds 1/2 to q, on average. surface starts the next
 # hop on the wall: 0 to p. rebound starts it where half a frame without the pull would take it: a
 # flight with that x and v left the wall half a frame before, 1/2 to p. none starts it where the car
 # was found: at CR = 1 a flight with that x and v crosses the wall half a frame later, -1/2 to p.
 # Where it leads, in equal frames and hops of many frames. If k < 0, hops shrink until the car is on
-# the wall after every frame (with none: caught). If k > 0, at CR = 1 hops grow, on average by 2 k
-# lines, until the car meets the other wall; at CR < 1 long ones shrink towards
-# n = k (1 + CR)/(1 - CR) lines, at any dt. Near n they repeat, their bounces all equally late: in
-# trials at CR 0.6 to 0.95 for ever, at 0.7 n to 2 n lines. If k = 0, each is CR times the one
-# before, on average. (With none any bounce at CR < 1 may catch the car.)
+# the wall after every frame (with none: caught). If k > 0, at CR = 1 hops grow, by 2 k lines each,
+# until the car meets the other wall; at CR < 1 long ones shrink towards n = k (1 + CR)/(1 - CR)
+# lines, at any dt, until they lock: with bounces all equally late one hop, or a few in turn,
+# repeats for ever (in trials at CR 0.6 to 0.95: 0.7 n to 2 n lines). If k = 0, hops are right on
+# average. (With none any bounce at CR < 1 may catch the car.)
 
 def arrival(d_m: float, u_mps: float, a_mps2: float) -> tuple[float, float]:
     """How long to a wall d_m ahead, and how fast there: t_s, w_mps. u and a are + towards it."""
@@ -503,7 +503,7 @@ def draw(figure: Any, points: Points, pixel_m: float, heading: str) -> None:
     """Draw the points with matplotlib as well."""
     figure.suptitle(f"Speed against accuracy\n{textwrap.fill(heading, 126)}", fontsize=8)
     axes = figure.add_subplot(
-        xscale="log", yscale="log", xlabel=f"largest error in {SPAN_S} s (m): better to the left",
+        xscale="log", yscale="log", xlabel="largest error in ten runs (m): better to the left",
         ylabel="processor time for a simulated second (\N{MICRO SIGN}s):\nbetter upwards")
     axes.invert_yaxis()
     for (letter, series), mark in zip(points.items(), "oxD+v"):
