@@ -39,8 +39,7 @@ NEAREST = {  # a word that is none: the nearest name
     "fps_taget=10": "fps_target=VALUE", "cr=0.5": "CR=VALUE", "CR": "CR=VALUE", "Chrat": "chart",
     "frames=5": "--frames", "--fast=yes": "--fast", "v=3": "v_mps=VALUE", "a=-9.81": "a_mps2=VALUE"}
 HINTS = {word: f"nearest: {name}" for word, name in NEAREST.items()}
-HINTS |= dict.fromkeys(("ten", "3.5", "=3", "", "a\nb", "9" * 5000),
-                       "-h lists all")
+HINTS |= dict.fromkeys(("ten", "3.5", "=3", "", "a\nb", "9" * 5000), "-h lists all")
 
 
 @pytest.mark.parametrize(("words", "sentence"), [
