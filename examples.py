@@ -86,8 +86,8 @@ EXAMPLES = {
         "A 0 is where the move alone put the car, beyond the wall. Where is the * in the same "
         "line? Does every collision show a 0?",
         "The rebound has put the * back on the track, 70 % as far off the wall as it was beyond "
-        "it: often that is still the wall's column. Not each of the 19 collisions shows a 0: the "
-        "wall's mark hides the others. With fps_target=10 at least the first five do (x quits)."),
+        "it: often in the wall's column. The wall hides the 0 of some of the 19 collisions (with "
+        "d: v does not rise by 0.07). At fps_target=10 at least the first five show theirs."),
     6: Example("Example 5 zoomed out", {
         "x_m": 2.0, "v_mps": 3.0, "a_mps2": 2.0, "CR": 0.7, "m_to_px": 30.0},
         "The drawing is smaller than in example 5. Does the motion change? Compare after how many "
@@ -179,8 +179,8 @@ EXAMPLES = {
     19: Example("Elastic hops, counted", {
         "x_m": 0.84, "v_mps": 0.098, "a_mps2": -2.0, "CR": 1.0, "correction": "surface",
         "fps_target": 10.0, "show_exact_mark": True},
-        "Elastic (CR=1): the o bounces on for ever. And the *? Count each hop's lines. (With d, v "
-        "falls by 0.20 in each line, except where a bounce is found.)",
+        "Elastic, so the o bounces on for ever. And the *? Count each hop's lines, from bounce to "
+        "bounce. (With d v falls by 0.20 a line, except at a bounce.)",
         "The hops of the * take 15, 14, 13 ... lines, down to 2 and 1, which are too low to see. "
         "In frame 134 the film calls it at rest. At CR = 1 each hop is 2 k lines longer than the "
         "one before, and k is a sum: -1 for backward, 1/2 for surface, so one line shorter. Now "
@@ -191,11 +191,11 @@ EXAMPLES = {
         "fps_target": 10.0, "show_exact_mark": True},
         "Each bounce takes 20 % of the speed. Which comes to rest, o or *, and when? Count the "
         "hops of the * as in example 19. End with x.",
-        "The hops of the * take 14, 12, 10 lines and, from frame 48 on (t = 4.8 s), 9 for ever, 20 "
-        "cm high. On average a hop is followed by one of CR (hop + k) + k lines. Exact has k = 0, "
-        "rebound adds 1: so 14 by 13.0, and 9 by 0.8 (9 + 1) + 1 = 9. The o lies still from t = "
-        "7.05 s on, its Zeno point, hidden by the wall. At 30 or 60 FPS the hops end at 7 to 13 "
-        "lines, so they are lower; at 120 the film calls them rest. With motion=backward "
+        "The hops of the * take 14, 12, 10 lines and, from frame 48 on (t = 4.8 s), 9 for ever, "
+        "about 20 cm high. On average over many starts a hop is followed by one of CR (hop + k) + "
+        "k lines. Exact has k = 0, rebound adds 1: so 9 by 0.8 (9 + 1) + 1 = 9. The o lies still "
+        "from t = 7.05 s on, its Zeno point, hidden by the wall. At 30 or 60 FPS the hops end at 7 "
+        "to 13 lines, so they are lower; at 120 the film calls them rest. With motion=backward "
         "correction=surface the * rests, too."),
 }
 OWN_SCENE = Example("Your own scene", {},
