@@ -79,10 +79,10 @@ def none(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> S
     """Reverse v, but leave the car beyond the wall: a trap.
 
     If the move out is shorter than the move in, the car may still be beyond. Then v is reversed
-    once more, now into the wall, and so on: the car is caught. CR < 1 shortens the move out. At
-    CR = 1, in equal frames, the pull shortens it: with backward if g > 0, slowing v first; with
-    forward if g < 0, having slowed v after the move in. At CR < 1 the reversals die down; then, if
-    g > 0, backward sinks by g dt^2/(1 + CR) a frame (example 3), exact less, and forward gets out.
+    once more, now into the wall, and so on: the car is caught. CR < 1 shortens the move out. So
+    does the pull at CR = 1, in equal frames: with backward, g > 0, it slows v before the move out;
+    with forward, g < 0, after the move in. At CR < 1 the reversals die down; then, if g > 0,
+    backward sinks by g dt^2/(1 + CR) a frame (example 3), exact less; forward gets out, if CR > 0.
     """
     return x_m, -CR * v_mps
 
@@ -102,12 +102,12 @@ def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -
 # hop should last CR times as long as the one before. Count a hop in lines of the film, from one in
 # which a bounce is found to the next such line. Then, on average over many starts,
 #     next = CR (hop + k) + k, where k is the motion's number plus the correction's:
-#     forward 1    exact 0    backward -1      surface 1/2    rebound 1    none 0, only at CR = 1
+#     forward 1    exact 0    backward -1      surface 1/2    rebound 1    none 0 (CR = 1 only)
 # Why? (1) In each frame the pull changes v by g dt. So a hop's first speed, off the wall (v after
 # the correction), and its last, into the wall (v before the next one), add up to hop times g dt.
 # (2) Draw the true flight through the hop's positions, to where it crosses the wall at both ends.
-# It leaves and meets the wall at one speed, w. The hop's first speed is the flight's speed p frames
-# after leaving, w - p g dt; its last is the flight's speed q frames after meeting the wall,
+# It leaves and meets the wall at the same speed, w. The hop's first speed is the flight's speed p
+# frames after leaving, w - p g dt; its last is the flight's speed q frames after meeting the wall,
 # w + q g dt. So last - first = (p + q) g dt. With k = p + q and (1):
 #     first = (hop - k) g dt/2,  last = (hop + k) g dt/2,  next hop's first = CR last: the law
 # (3) p and q are each the motion's part plus the correction's. forward's v is half a frame later
@@ -119,9 +119,9 @@ def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -
 # Where it leads, in equal frames and hops of many frames. If k < 0, hops shrink until the car is on
 # the wall after every frame (with none: caught). If k > 0, at CR = 1 hops grow, by 2 k lines each,
 # until the car meets the other wall; at CR < 1 long ones shrink towards n = k (1 + CR)/(1 - CR)
-# lines, at any dt, until they lock: with bounces all equally late one hop, or a few in turn,
-# repeats for ever (in trials at CR 0.6 to 0.95: 0.7 n to 2 n lines). If k = 0, hops are right on
-# average. (With none any bounce at CR < 1 may catch the car.)
+# lines, at any dt, until they lock: one hop, its bounces all equally late, or a few in turn repeat
+# for ever (in trials at CR 0.6 to 0.95: 0.7 n to 2 n lines). If k = 0, next = CR hop, on average.
+# (With none any bounce at CR < 1 may catch the car.)
 
 def arrival(d_m: float, u_mps: float, a_mps2: float) -> tuple[float, float]:
     """How long to a wall d_m ahead, and how fast there: t_s, w_mps. u and a are + towards it."""
