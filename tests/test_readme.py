@@ -150,8 +150,8 @@ def test_luck_and_the_exercises_end_as_it_says(capsys: Capture) -> None:
     assert math.sqrt(1.75) * 1.9 / 0.1 == pytest.approx(25.1, abs=0.05)
     lines = film(capsys, "16", "d", "--frames", "200").lines
     worst_m = max(abs(float(line.partition("err = ")[2])) for line in lines)
-    assert f"{errors_m('10', 'b')[0]:.1f} m for backward + rebound at 10 FPS. Example 16" in README
-    assert f"is such a run, up to {worst_m:.1f} m off." in README
+    assert f"{errors_m('10', 'b')[0]:.1f} m for backward + rebound at 10 FPS, is" in README
+    assert f"is not typical: example 16 is up to {worst_m:.1f} m off." in README
     for correction, told in (("none", "200 frames of example 2"), ("surface", "these 200")):
         error_m = apart_m(beside_the_truth(2, 200, 0, correction=correction)[-1:])
         assert f"({error_m:.1f} m off after {told})" in README
