@@ -79,10 +79,10 @@ def none(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> S
     """Reverse v, but leave the car beyond the wall: a trap.
 
     If the move out is shorter than the move in, the car may still be beyond. Then v is reversed
-    once more, now into the wall, and so on: the car is caught. CR < 1 shortens the move out. So
-    does the pull at CR = 1, in equal frames: with backward, g > 0, it slows v before the move out;
-    with forward, g < 0, after the move in. At CR < 1 the reversals die down; then, if g > 0,
-    backward sinks by g dt^2/(1 + CR) a frame (example 3), exact less; forward gets out, if CR > 0.
+    again, now into the wall, and so on: the car is caught. CR < 1 shortens the move out. At CR = 1,
+    in equal frames, backward does if g > 0, as it adds the pull before that move, and forward if
+    g < 0, as it added the pull after the move in. At CR < 1 v settles; if g > 0, backward sinks by
+    g dt^2/(1 + CR) a frame (example 3), exact sinks less; forward gets out if CR > 0.
     """
     return x_m, -CR * v_mps
 
@@ -112,16 +112,16 @@ def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -
 #     first = (hop - k) g dt/2,  last = (hop + k) g dt/2,  next hop's first = CR last: the law
 # (3) p and q are each the motion's part plus the correction's. forward's v is half a frame later
 # than its x: 1/2 to each. backward's is half a frame earlier: -1/2. A bounce is found at its
-# frame's end, up to a frame late: any correction adds 1/2 to q, on average. surface starts the next
-# hop on the wall: 0 to p. rebound starts it where half a frame without the pull would take it: a
-# flight with that x and v left the wall half a frame before, 1/2 to p. none starts it where the car
-# was found: at CR = 1 a flight with that x and v crosses the wall half a frame later, -1/2 to p.
+# frame's end, up to a frame late: this adds 1/2 to q on average. surface starts the next hop on the
+# wall: 0 to p. rebound starts it where half a frame without the pull would take it: a flight with
+# that x and v left the wall half a frame before, 1/2 to p. none starts it where the car was found:
+# at CR = 1 a flight with that x and v crosses the wall half a frame later, -1/2 to p.
 # Where it leads, in equal frames and hops of many frames. If k < 0, hops shrink until the car is on
 # the wall after every frame (with none: caught). If k > 0, at CR = 1 hops grow, by 2 k lines each,
 # until the car meets the other wall; at CR < 1 long ones shrink towards n = k (1 + CR)/(1 - CR)
-# lines, at any dt, until they lock: one hop, its bounces all equally late, or a few in turn repeat
-# for ever (in trials at CR 0.6 to 0.95: 0.7 n to 2 n lines). If k = 0, next = CR hop, on average.
-# (With none any bounce at CR < 1 may catch the car.)
+# lines, at any dt, until they lock: a hop, its bounces all equally late, or a cycle of hops repeats
+# for ever (0.7 n to 2 n lines, in trials at CR 0.6 to 0.95). If k = 0, next = CR hop, on average.
+# (With none, at CR < 1, a bounce may catch the car.)
 
 def arrival(d_m: float, u_mps: float, a_mps2: float) -> tuple[float, float]:
     """How long to a wall d_m ahead, and how fast there: t_s, w_mps. u and a are + towards it."""
