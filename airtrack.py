@@ -80,9 +80,9 @@ def none(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> S
 
     If the move out is shorter than the move in, the car may still be beyond. Then v is reversed
     again, now into the wall, and so on: the car is caught. CR < 1 shortens the move out. At CR = 1,
-    in equal frames, backward shortens it if g > 0, adding the pull before it; forward does if
-    g < 0, having added it after the move in. At CR < 1 v settles; then, if g > 0, backward sinks by
-    g dt^2/(1 + CR) a frame (example 3), exact less, and forward gets out (CR > 0).
+    in equal frames, backward does if g > 0 (the pull acts before the move out), forward if g < 0
+    (it acts after the move in). At CR < 1 v settles; then, if g > 0, backward sinks by
+    g dt^2/(1 + CR) a frame (example 3), exact sinks less, and forward gets out (CR > 0).
     """
     return x_m, -CR * v_mps
 
@@ -120,8 +120,8 @@ def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -
 # the wall after every frame (with none: caught). If k > 0, at CR = 1 hops grow, by 2 k lines each,
 # until the car meets the other wall; at CR < 1 long ones shrink towards n = k (1 + CR)/(1 - CR)
 # lines, at any dt, until they lock: one hop, always equally late, or a cycle of hops repeats for
-# ever (0.7 n to 2 n lines, in trials at CR 0.6 to 0.95). If k = 0, next = CR hop, on average, and
-# luck decides the end. (With none, at CR < 1, a bounce may catch the car.)
+# ever (0.7 n to 2 n lines, in trials at CR 0.6 to 0.95). If k = 0, next = CR hop, on average; at
+# CR < 1 luck decides the end. (With none, at CR < 1, a bounce may catch the car.)
 
 def arrival(d_m: float, u_mps: float, a_mps2: float) -> tuple[float, float]:
     """How long to a wall d_m ahead, and how fast there: t_s, w_mps. u and a are + towards it."""
