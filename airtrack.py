@@ -684,8 +684,8 @@ def film(scene: Scene, number: int, title: str, options: dict[str, str]) -> int:
     view = fitted(scene, details)
     is_changed = number in EXAMPLES and scene != Scene(**example.settings)
     as_it_is = "(About the example as it is, without your changes:) " * is_changed
+    question = as_it_is + example.look_for
     with nullcontext() if "--fast" in options else taken_keys() as keys:
-        question = as_it_is + example.look_for
         for paragraph in keys.help(question) if keys else [question]:
             say(paragraph)
         if keys:

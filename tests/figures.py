@@ -70,13 +70,13 @@ def truth(CR: float, fps: int, cut: int) -> list[tuple[float, float]]:
 @cache
 def told_plainly(motion: str, correction: str, CR: float, fps: int, cut: int) -> Samples:
     """The samples of that fall by a method, told plainly."""
+    behind = {"forward": 0, "backward": 2}.get(motion, 1)  # exact, and a reader's own: the mean
     dt_s, shift_s, frames = 1 / fps, shift_of(cut, fps), max(1, fps // 10)
     x, v = 2 - shift_s**2, -2 * shift_s
     found: Samples = []
     for true_x, true_v in truth(CR, fps, cut):
         for _ in range(frames):
-            steps = {"forward": v, "backward": v - 2 * dt_s}
-            x += steps.get(motion, v - dt_s) * dt_s  # exact, and a reader's own: by the mean
+            x += (v - behind * dt_s) * dt_s
             v -= 2 * dt_s
             wall = min(max(x, 0.25), 2.2)
             if x != wall:
@@ -86,7 +86,7 @@ def told_plainly(motion: str, correction: str, CR: float, fps: int, cut: int) ->
     return found
 
 
-def letter_told_plainly(samples: Samples) -> str:
+def plain_letter(samples: Samples) -> str:
     """What a run of that fall gets on the map, at 55 px/m."""
     if any(x < 0.25 - 1.95 or x > 2.2 + 1.95 for x, *_ in samples):
         return "X"

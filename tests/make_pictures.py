@@ -1,7 +1,7 @@
 """Makes the README's moving picture from the program's own output: python tests/make_pictures.py
 
-It is a terminal in which example 10 scrolls, as an animated GIF in .github/. Needs matplotlib (of
-the test extra), for its Pillow and its monospaced font.
+It is a full terminal in which example 10 scrolls, as an animated GIF in .github/. Needs matplotlib
+(of the test extra), for its Pillow and its monospaced font.
 """
 
 import subprocess
@@ -49,8 +49,7 @@ def screen(lines: list[str], columns: int) -> Image.Image:
 def main() -> None:
     lines = film()
     columns = max(map(len, lines))
-    counts = range(ROWS - 2, FRAMES + 1)  # from a full screen on
-    frames = [screen(lines[:count], columns).quantize(8) for count in counts]
+    frames = [screen(lines[:n], columns).quantize(8) for n in range(ROWS - 2, FRAMES + 1)]
     file = HERE / ".github" / "example-10.gif"
     frames[0].save(file, save_all=True, append_images=frames[1:], loop=0,
                    duration=[100] * (len(frames) - 1) + [2000], optimize=False)

@@ -13,15 +13,7 @@ import pytest
 import airtrack
 from airtrack import MOTIONS, SERIES, Scene, cell, main, verdict
 from examples import EXAMPLES
-from figures import (
-    RATES,
-    columns,
-    errors_m,
-    letter_told_plainly,
-    no_measuring,
-    printed,
-    told_plainly,
-)
+from figures import RATES, columns, errors_m, no_measuring, plain_letter, printed, told_plainly
 from films import HERE, apart_m, beside_the_truth, environment
 
 Capture = pytest.CaptureFixture[str]
@@ -311,6 +303,6 @@ def test_the_map_has_the_letters_of_a_plain_retelling(example: int, CR: float) -
             assert letters == ([*"Gg"] if meets_two else ["-"] * 2) + ["-"] * 7
             continue
         for fps, letter in zip(rates.split()[3:-1], letters, strict=True):
-            found = {letter_told_plainly(told_plainly(motion, correction, CR, int(fps), cut))
+            found = {plain_letter(told_plainly(motion, correction, CR, int(fps), cut))
                      for cut in range(10)}
             assert letter == cell(found)

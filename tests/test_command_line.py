@@ -17,10 +17,12 @@ Capture = pytest.CaptureFixture[str]
 
 WRONG = {  # a command line that is refused: what is said of it
     "x_m=5000": "x_m must be a number from -1000 to 1000 m, not 5000.0",
+    "chart 3 v_mps=nan": "v_mps must be a number from -1000 to 1000 m/s, not nan",
+    "fps_target=": "fps_target must be a number from 0.1 to 1000 1/s, not ''",
     "CR=0,5": "CR must be a number from 0 to 1, not '0,5'",
+    "m_to_px=1=2": "m_to_px must be a number from 0.001 to 1000 px/m, not '1=2'",
     "width_px=99.5": "width_px must be a whole number from 10 to 1000 px, not '99.5'",
-    "correction=bounce": "correction must be none, surface, rebound, rewind or replay, not "
-                         "'bounce'",
+    "correction=x": "correction must be none, surface, rebound, rewind or replay, not 'x'",
     "auto_off=no": "auto_off must be False or True, not 'no'",
     "10 left_edge_m=3": "right_edge_m must be at least 0.01 m to the right of left_edge_m, not 2.2 "
                         "and 3.0",
@@ -33,6 +35,7 @@ WRONG = {  # a command line that is refused: what is said of it
     "7 --save=film.png": "--save is for chart, not for the film",
     "chart --save": "--save FILE must end in .png, .svg or .pdf, not ''",
     "--frames 0": "--frames N must be a whole number from 1 up, not 0",
+    "--frames 2.5": "--frames N must be a whole number from 1 up, not '2.5'",
     "--frames": "--frames N must be a whole number from 1 up, not ''",
 }
 NEAREST = {  # a word that is none: the nearest name

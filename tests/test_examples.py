@@ -139,6 +139,7 @@ def test_5_shows_a_0_where_its_text_says(capsys: Capture) -> None:
     vs = [details(line)[1] for line in film(capsys, "5", "d").lines]
     assert sum(abs(b - a - 0.07) > 0.011 for a, b in pairwise([3.0, *vs])) == 19
     says(5, "70 %", "19 collisions", "fps_target=10", "the first five")
+
     def frames(columns: int, fps: float) -> tuple[list[int], list[int]]:
         """In which there is a bounce, and in which a 0."""
         scene = Scene(**EXAMPLES[5].settings | {"fps_target": fps})
