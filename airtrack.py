@@ -6,14 +6,14 @@
     python airtrack.py stability [EXAMPLE] [NAME=VALUE ...]
 
     chart        speed against accuracy; --save draws it as .png, .svg or .pdf
-    stability    where methods fail
+    stability    the map: where methods fail
     EXAMPLE      its number, listed by -h; default 0, for chart and stability 10
     d            details after each line: position, velocity, frame rate
     NAME=VALUE   a setting, listed by -h, on top of the example's own
     --fast       no pacing, no pauses, no keys: for a pipe or a file
     --frames N   stop after N frames; without it, after 50000
 """
-# Sections 1 to 6 are the lesson: read them from the top. examples.py has the examples and the keys.
+# Sections 1 to 7 are the lesson: read them from the top. examples.py has the examples and the keys.
 
 import difflib
 import math
@@ -38,16 +38,12 @@ from examples import EXAMPLES, OWN_SCENE, Keys, taken_keys
 #     x_m, v_mps   the car's position (m) and velocity (m/s), positive to the right
 #     a_mps2       its constant acceleration (m/s^2): the pull
 #     dt_s         how long a frame lasts (s), and so the time step
-#     wall_m       the position of a wall (m)
-#     CR           the coefficient of restitution: speed after a bounce / speed before
 #
 # v changes during the frame. Euler's methods hold it constant: forward takes it from the frame's
 # start, backward (for a constant a the same as semi-implicit Euler) from its end. Both are of first
 # order: half the dt, half the error after a given time. exact has no error, for a constant a.
-# Euler's points lie on a true flight, one with another starting v: the v that a step uses is that
-# flight's v in mid-step. forward returns the next step's v: the flight's v half a step later than
-# its x. backward returns the v just used, half a step earlier. Section 2 needs this.
-# E = v^2/2 - a x is the car's energy per kilogram. In free flight it should not change.
+# E = v^2/2 - a x is the car's energy per kilogram. In free flight it should not change; by how
+# much it does is what section 7 starts from.
 
 State = tuple[float, float]  # x_m, v_mps
 
@@ -68,21 +64,20 @@ MOTIONS = {"forward": forward, "backward": backward, "exact": exact}  # name a n
 
 
 # ==== 2. Colliding: the stickiness corrections ==================================================
-#     off, into    off a wall is back towards the track; into it is the other way
-#     g            the pull into the wall (m/s^2); below 0, it is a pull off the wall
+#     wall_m       the position of a wall (m)
+#     CR           the coefficient of restitution: speed after a bounce / speed before
 #
-# If a move ends beyond a wall, the car may stick there. So a correction takes the move's x and v,
-# the wall, a and CR, and returns new x and v. The corrections differ in what the car does from the
-# bounce to the frame's end. (replay redoes the whole move.)
+# Stickiness: a car whose move ends beyond a wall may be caught there. So a correction takes the
+# move's x and v, the wall, a and CR, and returns new x and v. The overlap is x - wall. Off a wall
+# is back towards the track, into it the other way. The law of the hops, section 7, says what none,
+# surface, rebound and conserve do to a car that hops on a wall.
 
 def none(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Reverse v, but leave the car beyond the wall: a trap.
 
-    If the move out is shorter than the move in, the car may still be beyond. Then v is reversed
-    again, now into the wall, and so on: the car is caught. CR < 1 shortens the move out. At CR = 1,
-    in equal frames, backward does if g > 0 (the pull acts before the move out), forward if g < 0
-    (it acts after the move in). At CR < 1 v settles; then, if g > 0, backward sinks by
-    g dt^2/(1 + CR) a frame (example 3), exact sinks less, and forward gets out (CR > 0).
+    It may not be out again a frame later: if CR < 1 has slowed it (example 3), if the motion is
+    backward and the pull is into the wall, or if it is forward and the pull is off the wall. Then v
+    is reversed once more, now into the wall, and so on: the car is caught.
     """
     return x_m, -CR * v_mps
 
@@ -98,30 +93,20 @@ def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -
     overlap_m = x_m - wall_m
     return wall_m - CR * overlap_m, -CR * v_mps
 
-# The law of the hops explains chart and map. A car hops on the wall that it is pulled to, and each
-# hop should last CR times as long as the one before. Count a hop in lines of the film, from one in
-# which a bounce is found to the next such line. Then, on average over many starts,
-#     next = CR (hop + k) + k, where k is the motion's number plus the correction's:
-#     forward 1    exact 0    backward -1      surface 1/2    rebound 1    none 0 (CR = 1 only)
-# Why? (1) In each frame the pull changes v by g dt. So a hop's first speed, off the wall (v after
-# the correction), and its last, into the wall (v before the next one), add up to hop times g dt.
-# (2) Draw the true flight through the hop's positions, to where it crosses the wall at both ends.
-# It leaves and meets the wall at the same speed, w. The hop's first speed is the flight's speed p
-# frames after leaving, w - p g dt; its last is the flight's speed q frames after meeting the wall,
-# w + q g dt. So last - first = (p + q) g dt. With k = p + q and (1):
-#     first = (hop - k) g dt/2,  last = (hop + k) g dt/2,  next hop's first = CR last: the law
-# (3) p and q are each the motion's part plus the correction's. forward's v is half a frame later
-# than its x: 1/2 to each. backward's is half a frame earlier: -1/2. A bounce is found at its
-# frame's end, up to a frame late: this adds 1/2 to q on average. surface starts the next hop on the
-# wall: 0 to p. rebound starts it where half a frame without the pull would take it: a flight with
-# that x and v left the wall half a frame before, 1/2 to p. none starts it where the car was found:
-# at CR = 1 a flight with that x and v crosses the wall half a frame later, -1/2 to p.
-# Where it leads, in equal frames and hops of many frames. If k < 0, hops shrink until the car is on
-# the wall after every frame (with none: caught). If k > 0, at CR = 1 hops grow, by 2 k lines each,
-# until the car meets the other wall; at CR < 1 long ones shrink towards n = k (1 + CR)/(1 - CR)
-# lines, at any dt, until they lock: one hop, always equally late, or a cycle of hops repeats for
-# ever (0.7 n to 2 n lines, in trials at CR 0.6 to 0.95). If k = 0, next = CR hop, on average; at
-# CR < 1 luck decides the end. (With none, at CR < 1, a bounce may catch the car.)
+def conserve(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
+    """Put the car where rebound puts it, with the speed that its energy leaves it there.
+
+    Where that is too little to get there, put it on the wall. Only the moment of the bounce is
+    wrong: by the exact motion an error of second order (half the dt, a quarter of the error).
+    """
+    overlap_m = x_m - wall_m
+    # Back at the wall E is the same, w^2 = v^2 - 2 a overlap, and the bounce leaves CR w.
+    w_mps = CR * math.sqrt(max(0.0, v_mps * v_mps - 2 * a_mps2 * overlap_m))
+    # From there E stays the same: CR overlap off the wall it is u^2 = (CR w)^2 - 2 a CR overlap.
+    u_squared = w_mps * w_mps - 2 * a_mps2 * CR * overlap_m
+    if u_squared < 0:
+        return wall_m, math.copysign(w_mps, -overlap_m)
+    return wall_m - CR * overlap_m, math.copysign(math.sqrt(u_squared), -overlap_m)
 
 def arrival(d_m: float, u_mps: float, a_mps2: float) -> tuple[float, float]:
     """How long to a wall d_m ahead, and how fast there: t_s, w_mps. u and a are + towards it."""
@@ -144,8 +129,9 @@ def rewind(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) ->
     x_m, v_mps = exact(wall_m, -side * CR * w_mps, a_mps2, t_s)
     return (wall_m if side * (x_m - wall_m) > 0 else x_m), v_mps  # beyond again: a second bounce
 
-CORRECTIONS = {"none": none, "surface": surface, "rebound": rebound, "rewind": rewind,
-               "replay": None}  # replay does not correct the move: it replaces it, in step
+CORRECTIONS = {"none": none, "surface": surface, "rebound": rebound, "conserve": conserve,
+               "rewind": rewind}
+EVERY_CORRECTION = (*CORRECTIONS, "replay")  # replay takes the whole frame: step has it by name
 EXACT_ONLY = ("rewind", "replay")  # they need the exact motion
 
 
@@ -166,7 +152,7 @@ class Scene:
     right_edge_m: float = setting(2.2, "the right wall", (-1000, 1000), "m")
     CR: float = setting(0.8, "coefficient of restitution: speed after / before a bounce", (0, 1))
     motion: str = setting("backward", "how the car is moved", tuple(MOTIONS))
-    correction: str = setting("rebound", "stickiness correction of a collision", tuple(CORRECTIONS))
+    correction: str = setting("rebound", "stickiness correction of a collision", EVERY_CORRECTION)
     fps_target: float = setting(30.0, "frames a second; time step 1/fps_target", (0.1, 1000), "1/s")
     use_observed_dt: bool = setting(False, "the step is how long the frame before took")
     jitter: float = setting(0.0, "frame lengths vary by up to this fraction", (0, 0.9))
@@ -194,17 +180,17 @@ def step(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> tuple[float, fl
 
     mark_m is where the move alone ended, before the correction; None without a collision.
     """
-    motion, correction = MOTIONS[scene.motion], CORRECTIONS[scene.correction]
-    free_m, free_mps = motion(x_m, v_mps, scene.a_mps2, dt_s)
+    free_m, free_mps = MOTIONS[scene.motion](x_m, v_mps, scene.a_mps2, dt_s)
     on_track_m = scene.to_track(free_m)  # the wall, if the move ended beyond one
     is_beyond = on_track_m != free_m
-    if correction is not None and is_beyond:
-        return *correction(free_m, free_mps, on_track_m, scene.a_mps2, scene.CR), free_m
     # replay. A move that ends on the track can have been beyond a wall only if v changed its sign.
-    if correction is None and (is_beyond or v_mps * free_mps < 0):
+    if scene.correction == "replay" and (is_beyond or v_mps * free_mps < 0):
         x_m, v_mps = replay(scene, x_m, v_mps, dt_s)
         is_bounce = is_beyond or v_mps != free_mps  # without one v is exactly the move's
         return x_m, v_mps, (free_m if is_bounce else None)
+    if is_beyond:
+        correction = CORRECTIONS[scene.correction]
+        return *correction(free_m, free_mps, on_track_m, scene.a_mps2, scene.CR), free_m
     return free_m, free_mps, None
 
 GRAZE_M = 5e-11  # far above the round-off of a position
@@ -368,14 +354,59 @@ def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None
     print(f"Stopped after {frame} frame{'s' * (frame != 1)}, t = {t_s:.2f} s: {why}.", flush=True)
 
 
-# ==== 7. What film, chart and map share in printing =============================================
+# ==== 7. The law of the hops ====================================================================
+# A car hops on the wall that it is pulled to. Each hop should last CR times as long as the one
+# before. Count it in lines of the film, from one in which a bounce is found to the next such line.
+# Then, on average over many starts, it is followed by a hop of
+#     next = CR (hop + k) + k lines, where k is the motion's number plus the correction's:
+#     forward 1    exact 0    backward -1      surface 1/2    rebound 1    conserve 0    none 0
+# (none at CR = 1: below, it may catch the car. rewind and replay need no law.) Example 20 ends with
+# this hop: exact + rebound, CR = 0.8, dt = 0.1, g = 2, the pull into the wall. A column is 1 cm.
+#     0    0    |   *                    v =  0.80
+#     1         |          *             v =  0.60
+#     2         |               *        v =  0.40
+#     3         |                  *     v =  0.20
+#     4         |                   *    v =  0.00
+#     5         |                  *     v = -0.20
+#     6         |               *        v = -0.40
+#     7         |          *             v = -0.60
+#     8         |   *                    v = -0.80
+#     9    0    |   *                    v =  0.80    (before the correction v was -1.00)
+# Why? Let u be a hop's first speed, off the wall (after the correction: 0.8), w its last, into the
+# wall (before the correction: 1.0), m the motion's number (0), and drop by how much lower the hop
+# ends, beyond the wall, than it began (0.05 + 0.04 m). From line 0 to line 9 are nine frames.
+# (1) Each frame the pull adds g dt:  u + w = hop g dt                          0.8 + 1.0 = 9 * 0.2
+# (2) v^2/2 grows by g drop, from the pull, and by what the motion adds to E in each frame, m times
+#     g^2 dt^2/2 (section 1):  (w^2 - u^2)/2 = g drop + hop m g^2 dt^2/2         0.18 = 2 * 0.09 + 0
+# (3) Twice (2), divided by (1):  w - u = 2 drop/(hop dt) + m g dt               0.2 = 0.18/0.9 + 0
+# (4) The drop: this alone is an average. A bounce is found up to a frame late, on average half a
+#     frame, so the hop ends half a frame's move into the wall. At its mean speed, hop g dt/2, that
+#     is hop g dt^2/4, and g dt/2 in (3). surface begins a hop on the wall: no more. rebound begins
+#     it off the wall, by CR times the overlap before, half a frame's move at u: as much again. none
+#     begins it beyond the wall: at CR = 1, as much less. conserve: take u and w where the car is at
+#     the wall; E is the same there, so there is no drop.
+# So w - u = k g dt. With (1), w = (hop + k) g dt/2, u = (hop - k) g dt/2. The next u is CR w.
+#
+# Where it leads, in equal frames, many to a hop. At CR = 1 each hop is 2 k lines longer, until the
+# car meets the other wall or, if k < 0, is on this one after each frame (by none: caught). If k = 0
+# they stay; but by backward + rebound they wander. At CR < 1 a hop repeats if all its bounces are
+# equally late, by s of a frame: surface's number is s then, rebound's 2 s, and the hop has
+# k (1 + CR)/(1 - CR) lines. s may be 0 to 1. So at CR = 0.9 hops of up to 19 lines may repeat by
+# exact + surface and backward + rebound (the default), up to 37 by exact + rebound, 19 to 38 by
+# forward + surface, 19 to 55 by forward + rebound; by forward + conserve about 19 do. Longer ones
+# come down to such lengths and stay there (by backward + rebound, or rest). By backward + surface,
+# exact + conserve and backward + conserve the car comes to rest.
+
+
+# ==== 8. What film, chart and map share in printing =============================================
 
 INKS = {  # marks of film, chart and map: the terminal's number for their colour
-    "0cXx": 31,  # red
+    "0Xx": 31,  # red
     "od-": 32,  # green
     "*<>eWGgLl": 33,  # amber
     "bPp": 34,  # blue
     "aSs": 35,  # violet
+    "c": 36,  # cyan
 }
 COLOURED = {ord(mark): f"\033[{ink}m{mark}\033[0m"
             for marks, ink in INKS.items() for mark in marks}
@@ -393,7 +424,7 @@ def say(text: str, indent: int = 0) -> None:
     print(textwrap.fill(text, width, subsequent_indent=" " * indent), flush=True)
 
 
-# ==== 8. Speed against accuracy: the chart ======================================================
+# ==== 9. Speed against accuracy: the chart ======================================================
 
 SPAN_S, CUTS = 20, 10  # of chart and map: simulated seconds, runs of each method
 MEASURED = ("The scene's own motion, correction and rate do not matter, nor do jitter and observed "
@@ -401,7 +432,7 @@ MEASURED = ("The scene's own motion, correction and rate do not matter, nor do j
             "once from the scene's start, and nine times from the true state a part of a frame "
             "later, so that the car meets the walls at another point of a frame. The worst counts.")
 CHART_FPS = (10, 30, 60, 120, 240, 480, 960, 1920, 3840)  # multiples of 10, for simulate
-SERIES = {"a": ("backward", "surface"), "b": ("backward", "rebound"), "c": ("exact", "rebound"),
+SERIES = {"a": ("backward", "rebound"), "b": ("exact", "rebound"), "c": ("exact", "conserve"),
           "d": ("exact", "rewind"), "e": ("exact", "replay")}
 Points = dict[str, list[tuple[float, float]]]  # letter: (error_m, cost_us) at each rate
 cached_step = cache(step)  # all methods need the truth at the same moments
@@ -528,7 +559,7 @@ def chart(scene: Scene, heading: str, file: str | None) -> None:
         print(f"\nSaved as {file!a}.")
 
 
-# ==== 9. Where methods fail: the stability map ==================================================
+# ==== 10. Where methods fail: the stability map =================================================
 
 MAP_FPS = (1, 2, 5, 10, 30, 60, 120, 240, 1000)  # at most 10, or multiples of it
 VERDICTS = {  # from the worst to the best
@@ -570,7 +601,7 @@ def stability(scene: Scene, whose: str, heading: str) -> None:
     say(f"Stability. {heading} {MEASURED}")
     print(f"\n{whose:20}" + "".join(f"{fps:6}" for fps in MAP_FPS), "FPS")
     for motion in MOTIONS:
-        for correction in CORRECTIONS:
+        for correction in EVERY_CORRECTION:
             if motion == "exact" or correction not in EXACT_ONLY:
                 method = replace(scene, motion=motion, correction=correction)
                 row = ""
@@ -585,7 +616,7 @@ def stability(scene: Scene, whose: str, heading: str) -> None:
         "hops on or, at low rates, lies at a wall with a large v.")
 
 
-# ==== 10. Checking a scene ======================================================================
+# ==== 11. Checking a scene ======================================================================
 
 class BadInput(ValueError):
     """One sentence on what a user asked for and cannot have."""
@@ -623,7 +654,7 @@ def check(scene: Scene) -> None:
             raise BadInput(f"x_m must be from {left_m} to {right_m} {with_it}, not {scene.x_m}")
 
 
-# ==== 11. The command line ======================================================================
+# ==== 12. The command line ======================================================================
 
 SETTINGS = {row.name: row for row in fields(Scene)}
 COMMANDS = ("chart", "stability")

@@ -166,7 +166,8 @@ EXAMPLES = {
         "The * stays on the o until the first bounce, in frame 14, and then leaves it: by up to "
         "1.8 m within 20 s. What fails is the rebound. It lifts the car off the wall without "
         "slowing it. So the car gains energy at each bounce off the left wall, to which it is "
-        "pulled, and gives some back at the right one. With correction=rewind it stays on the o."),
+        "pulled, and gives some back at the right one. With correction=conserve it comes back to "
+        "the start mark each time, within 6 cm of the o for 20 s; with rewind it stays on the o."),
     18: Example("The exact solution at 4 FPS", {
         "x_m": 0.65, "v_mps": 5.0, "a_mps2": -8.0, "CR": 1.0, "motion": "exact",
         "correction": "rewind", "fps_target": 4.0, "show_exact_mark": True},
@@ -195,8 +196,8 @@ EXAMPLES = {
         "about 20 cm high. On average over many starts a hop is followed by one of CR (hop + k) + "
         "k lines. Exact has k = 0, rebound adds 1: so 9 by 0.8 (9 + 1) + 1 = 9. The o lies still "
         "from t = 7.05 s on, its Zeno point, hidden by the wall. At 30 or 60 FPS the hops end at 7 "
-        "to 13 lines, so they are lower; at 120 the film calls them rest. With motion=backward "
-        "correction=surface the * rests, too."),
+        "to 13 lines, so they are lower; at 120 the film calls them rest. The cure is "
+        "correction=conserve: with it the * comes to rest, as the o does, at about 7 s."),
 }
 OWN_SCENE = Example("Your own scene", {},
     "How far does the car get from each wall? Does it come to rest?",

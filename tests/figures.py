@@ -1,6 +1,7 @@
 """What chart and stability map print, and the same told plainly."""
 
 import io
+import math
 from contextlib import redirect_stdout
 from dataclasses import replace
 from decimal import Decimal
@@ -67,6 +68,17 @@ def truth(CR: float, fps: int, cut: int) -> list[tuple[float, float]]:
     return [(float(x), float(v)) for x, v in states(Scene(x_m=2, a_mps2=-2, CR=CR), times_s)]
 
 
+def bounced(correction: str, x: float, v: float, wall: float, CR: float) -> tuple[float, float]:
+    """That car after a bounce."""
+    if correction != "conserve":
+        return {"none": x, "surface": wall, "rebound": wall - CR * (x - wall)}[correction], -CR * v
+    energy = CR**2 * max(0.0, v**2 / 2 + 2 * (x - wall))  # above the wall
+    rise = CR * (wall - x)
+    rise = rise if 2 * rise <= energy else 0.0
+    speed = math.sqrt(2 * energy - 4 * rise)
+    return wall + rise, speed if x < wall else -speed
+
+
 @cache
 def told_plainly(motion: str, correction: str, CR: float, fps: int, cut: int) -> Samples:
     """The samples of that fall by a method, told plainly."""
@@ -80,8 +92,7 @@ def told_plainly(motion: str, correction: str, CR: float, fps: int, cut: int) ->
             v -= 2 * dt_s
             wall = min(max(x, 0.25), 2.2)
             if x != wall:
-                x = {"none": x, "surface": wall, "rebound": wall - CR * (x - wall)}[correction]
-                v *= -CR
+                x, v = bounced(correction, x, v, wall, CR)
         found.append((x, v, true_x, true_v))
     return found
 

@@ -90,9 +90,9 @@ def starts(motion: str, correction: str, CR: float, low: float, high: float,
             left_edge_m=min(0, -1000 * side), right_edge_m=max(0, -1000 * side))
 
 
-# The law of the hops: the k of each motion and correction, as airtrack.py's table has it.
-TABLE = (HERE / "airtrack.py").read_text().partition("law of the hops")[2].partition("Why?")[0]
-K = {name: float(Fraction(k)) for name, k in re.findall("    ([a-z]+) +(-?[0-9/]+)", TABLE)}
+# The law of the hops: the k of each motion and correction, as airtrack.py has it.
+LAW = (HERE / "airtrack.py").read_text().partition("# ==== 7. ")[2].partition("# ==== 8. ")[0]
+K = {name: float(Fraction(k)) for name, k in re.findall("    ([a-z]+) (-?[0-9/]+)", LAW)}
 
 
 def ends(motion: str, correction: str, CR: float, number: int) -> list[float]:

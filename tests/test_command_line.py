@@ -22,7 +22,8 @@ WRONG = {  # a command line that is refused: what is said of it
     "CR=0,5": "CR must be a number from 0 to 1, not '0,5'",
     "m_to_px=1=2": "m_to_px must be a number from 0.001 to 1000 px/m, not '1=2'",
     "width_px=99.5": "width_px must be a whole number from 10 to 1000 px, not '99.5'",
-    "correction=x": "correction must be none, surface, rebound, rewind or replay, not 'x'",
+    "correction=x": "correction must be none, surface, rebound, conserve, rewind or replay, not "
+                    "'x'",
     "auto_off=no": "auto_off must be False or True, not 'no'",
     "10 left_edge_m=3": "right_edge_m must be at least 0.01 m to the right of left_edge_m, not 2.2 "
                         "and 3.0",

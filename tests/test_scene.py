@@ -22,7 +22,7 @@ TABLE: list[tuple[str, Any, str, list[Any], list[Any]]] = [
     ("CR", 0.8, "a number from 0 to 1", [0, 1, 0.5], [-1e-9, 1.0000001]),
     ("motion", "backward", " or ".join(", ".join(MOTIONS).rsplit(", ", 1)), [*MOTIONS],
      ["Exact", 1]),
-    ("correction", "rebound", "none, surface, rebound, rewind or replay",
+    ("correction", "rebound", "none, surface, rebound, conserve, rewind or replay",
      ["none", "surface"], ["bounce", False]),
     ("fps_target", 30.0, "a number from 0.1 to 1000 1/s", [0.1, 1000], [0.0999, ABOVE]),
     ("use_observed_dt", False, "False or True", [False, True], ["True", 2]),
