@@ -42,8 +42,8 @@ from examples import EXAMPLES, OWN_SCENE, Keys, taken_keys
 # v changes during the frame. Euler's methods hold it constant: forward takes it from the frame's
 # start, backward (for a constant a the same as semi-implicit Euler) from its end. Both are of first
 # order: half the dt, half the error after a given time. exact has no error, for a constant a.
-# E = v^2/2 - a x is the car's energy per kilogram. In free flight it should not change; by how
-# much it does is what section 7 starts from.
+# E = v^2/2 - a x is the car's energy per kilogram. In free flight it should not change; section
+# 7 uses how much it does by each motion.
 
 State = tuple[float, float]  # x_m, v_mps
 
@@ -67,17 +67,17 @@ MOTIONS = {"forward": forward, "backward": backward, "exact": exact}  # name a n
 #     wall_m       the position of a wall (m)
 #     CR           the coefficient of restitution: speed after a bounce / speed before
 #
-# Stickiness: a car whose move ends beyond a wall may be caught there. So a correction takes the
-# move's x and v, the wall, a and CR, and returns new x and v. The overlap is x - wall. Off a wall
-# is back towards the track, into it the other way. The law of the hops, section 7, says what none,
-# surface, rebound and conserve do to a car that hops on a wall.
+# Stickiness: a car whose move ends beyond a wall may stay there (see none). So a correction takes
+# that move's x and v, the wall, a and CR, and returns x and v after the bounce. The overlap is
+# x - wall. Off a wall is back towards the track; the other way is into it. The law of the hops,
+# section 7, says what none, surface, rebound and conserve do to a car that hops on a wall.
 
 def none(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Reverse v, but leave the car beyond the wall: a trap.
 
-    It may not be out again a frame later: if CR < 1 has slowed it (example 3), if the motion is
+    A frame later it may still be beyond: if CR < 1 has slowed it (example 3), if the motion is
     backward and the pull is into the wall, or if it is forward and the pull is off the wall. Then v
-    is reversed once more, now into the wall, and so on: the car is caught.
+    is reversed once more, now into the wall, and so on: the car is caught, often for good.
     """
     return x_m, -CR * v_mps
 
@@ -94,18 +94,18 @@ def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -
     return wall_m - CR * overlap_m, -CR * v_mps
 
 def conserve(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
-    """Put the car where rebound puts it, with the speed that its energy leaves it there.
+    """Put the car where rebound puts it, at the speed that its energy after the bounce gives there.
 
-    Where that is too little to get there, put it on the wall. Only the moment of the bounce is
-    wrong: by the exact motion an error of second order (half the dt, a quarter of the error).
+    If that energy does not carry it so far, put it on the wall. Only the moment of the bounce is
+    wrong; with the exact motion this is of second order: half the dt, a quarter of the error.
     """
     overlap_m = x_m - wall_m
     # Back at the wall E is the same, w^2 = v^2 - 2 a overlap, and the bounce leaves CR w.
-    w_mps = CR * math.sqrt(max(0.0, v_mps * v_mps - 2 * a_mps2 * overlap_m))
-    # From there E stays the same: CR overlap off the wall it is u^2 = (CR w)^2 - 2 a CR overlap.
-    u_squared = w_mps * w_mps - 2 * a_mps2 * CR * overlap_m
+    bounced_mps = CR * math.sqrt(max(0.0, v_mps * v_mps - 2 * a_mps2 * overlap_m))
+    # From there E stays the same: CR overlap off the wall u^2 = (CR w)^2 - 2 a CR overlap.
+    u_squared = bounced_mps * bounced_mps - 2 * a_mps2 * CR * overlap_m
     if u_squared < 0:
-        return wall_m, math.copysign(w_mps, -overlap_m)
+        return wall_m, math.copysign(bounced_mps, -overlap_m)
     return wall_m - CR * overlap_m, math.copysign(math.sqrt(u_squared), -overlap_m)
 
 def arrival(d_m: float, u_mps: float, a_mps2: float) -> tuple[float, float]:
@@ -120,8 +120,8 @@ def rewind(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) ->
     """Go back to the wall, bounce there, and go on for as long as the car was beyond.
 
     Right for the exact motion, in a frame that holds one bounce and whose move ends beyond the wall
-    (example 10). It cannot settle a second bounce. And where the pull brings the car back before
-    the frame ends, no collision is found: a missed event (example 18).
+    (example 10). It cannot settle a second bounce. If the pull brings the car back before the frame
+    ends, it is not asked: a missed event (example 18).
     """
     # Run time backwards: v changes its sign, a does not, and the car arrives at the wall.
     side = math.copysign(1, x_m - wall_m)  # 1 beyond the right wall, -1 beyond the left one
@@ -131,7 +131,7 @@ def rewind(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) ->
 
 CORRECTIONS = {"none": none, "surface": surface, "rebound": rebound, "conserve": conserve,
                "rewind": rewind}
-EVERY_CORRECTION = (*CORRECTIONS, "replay")  # replay takes the whole frame: step has it by name
+EVERY_CORRECTION = (*CORRECTIONS, "replay")  # which redoes the whole frame, in section 4
 EXACT_ONLY = ("rewind", "replay")  # they need the exact motion
 
 
@@ -186,7 +186,7 @@ def step(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> tuple[float, fl
     # replay. A move that ends on the track can have been beyond a wall only if v changed its sign.
     if scene.correction == "replay" and (is_beyond or v_mps * free_mps < 0):
         x_m, v_mps = replay(scene, x_m, v_mps, dt_s)
-        is_bounce = is_beyond or v_mps != free_mps  # without one v is exactly the move's
+        is_bounce = is_beyond or v_mps != free_mps  # without a bounce v is exactly the move's
         return x_m, v_mps, (free_m if is_bounce else None)
     if is_beyond:
         correction = CORRECTIONS[scene.correction]
@@ -198,11 +198,11 @@ GRAZE_M = 5e-11  # far above the round-off of a position
 def replay(scene: Scene, x_m: float, v_mps: float, t_s: float) -> State:
     """Replace the move: follow the exact motion from the frame's start, from wall to wall.
 
-    Right for several bounces (example 15) or infinitely many, but for grazes. Think of a ball in a
+    Right for several bounces (example 15) or infinitely many, not for grazes. Think of a ball in a
     room: gravity pulls it to the floor (without a pull, the left wall), h is its height. The loop
     ends: trips to the ceiling take time, and without them hops() ends it. A ball that would pass
-    the ceiling by less than GRAZE_M misses it: d below it v is sqrt(2 g d), so 1e-16 off in d is
-    1e-8 off in v. A miss shifts it by up to 4 sqrt(room GRAZE_M): 4e-5 m with the default walls.
+    the ceiling by less than GRAZE_M misses it: 1e-16 off in h can be 1e-8 off in v there. Each miss
+    shifts it by up to 4 sqrt(room GRAZE_M), 4e-5 m with the default walls, and these add up.
     """
     up, floor_m = (-1, scene.right_edge_m) if scene.a_mps2 > 0 else (1, scene.left_edge_m)
     room_m, g_mps2, CR = scene.right_edge_m - scene.left_edge_m, abs(scene.a_mps2), scene.CR
@@ -315,7 +315,7 @@ def is_at_rest(scene: Scene, v_mps: float, last_m: deque[float]) -> bool:
     """Whether the car rests against the wall that it is pulled to or, without a pull, against any.
 
     In the last frames its mean distance from the wall is at most 1 mm, and its v at most what the
-    pull adds in that time. (By Euler's methods a car that leans on a wall may have some v.)
+    pull adds in that time. (A car that leans on a wall may have some v in each frame.)
     """
     side = scene.a_mps2 or last_m[-1] - (scene.left_edge_m + scene.right_edge_m) / 2
     wall_m = scene.right_edge_m if side > 0 else scene.left_edge_m
@@ -356,57 +356,56 @@ def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None
 
 # ==== 7. The law of the hops ====================================================================
 # A car hops on the wall that it is pulled to. Each hop should last CR times as long as the one
-# before. Count it in lines of the film, from one in which a bounce is found to the next such line.
-# Then, on average over many starts, it is followed by a hop of
+# before. Count a hop in lines of the film, from one in which a bounce is found to the next such
+# line. On average over many starts, a hop is followed by one of
 #     next = CR (hop + k) + k lines, where k is the motion's number plus the correction's:
 #     forward 1    exact 0    backward -1      surface 1/2    rebound 1    conserve 0    none 0
-# (none at CR = 1: below, it may catch the car. rewind and replay need no law.) Example 20 ends with
-# this hop: exact + rebound, CR = 0.8, dt = 0.1, g = 2, the pull into the wall. A column is 1 cm.
-#     0    0    |   *                    v =  0.80
-#     1         |          *             v =  0.60
-#     2         |               *        v =  0.40
-#     3         |                  *     v =  0.20
-#     4         |                   *    v =  0.00
-#     5         |                  *     v = -0.20
-#     6         |               *        v = -0.40
-#     7         |          *             v = -0.60
-#     8         |   *                    v = -0.80
-#     9    0    |   *                    v =  0.80    (before the correction v was -1.00)
-# Why? Let u be a hop's first speed, off the wall (after the correction: 0.8), w its last, into the
-# wall (before the correction: 1.0), m the motion's number (0), and drop by how much lower the hop
-# ends, beyond the wall, than it began (0.05 + 0.04 m). From line 0 to line 9 are nine frames.
+# (none: at CR = 1, and until it catches the car. rewind and replay need no law.) Here is the hop
+# that example 20 ends with: exact + rebound, CR = 0.8, dt = 0.1, the pull into the wall g = 2. A
+# column is 1 cm, and from line 0 to line 9 are nine frames.
+#     0:   0    |   *                    v =  0.80
+#     1:        |          *             v =  0.60
+#     2:        |               *        v =  0.40
+#     3:        |                  *     v =  0.20
+#     4:        |                   *    v =  0.00
+#     5:        |                  *     v = -0.20
+#     6:        |               *        v = -0.40
+#     7:        |          *             v = -0.60
+#     8:        |   *                    v = -0.80
+#     9:   0    |   *                    v =  0.80    (before the correction v was -1.00)
+# Why? Let u be a hop's first speed, off the wall (after the correction: 0.8), w its last one, into
+# the wall (before the correction: 1.0), m the motion's number (0), and drop by how much further
+# into the wall the hop ends than it begins (0.05 + 0.04 = 0.09).
 # (1) Each frame the pull adds g dt:  u + w = hop g dt                          0.8 + 1.0 = 9 * 0.2
-# (2) v^2/2 grows by g drop, from the pull, and by what the motion adds to E in each frame, m times
-#     g^2 dt^2/2 (section 1):  (w^2 - u^2)/2 = g drop + hop m g^2 dt^2/2         0.18 = 2 * 0.09 + 0
+# (2) v^2/2 grows by g drop, from the pull, and in each frame by what the motion adds to E (section
+#     1), m g^2 dt^2/2:  (w^2 - u^2)/2 = g drop + hop m g^2 dt^2/2               0.18 = 2 * 0.09 + 0
 # (3) Twice (2), divided by (1):  w - u = 2 drop/(hop dt) + m g dt               0.2 = 0.18/0.9 + 0
-# (4) The drop: this alone is an average. A bounce is found up to a frame late, on average half a
-#     frame, so the hop ends half a frame's move into the wall. At its mean speed, hop g dt/2, that
-#     is hop g dt^2/4, and g dt/2 in (3). surface begins a hop on the wall: no more. rebound begins
-#     it off the wall, by CR times the overlap before, half a frame's move at u: as much again. none
-#     begins it beyond the wall: at CR = 1, as much less. conserve: take u and w where the car is at
-#     the wall; E is the same there, so there is no drop.
-# So w - u = k g dt. With (1), w = (hop + k) g dt/2, u = (hop - k) g dt/2. The next u is CR w.
-#
-# Where it leads, in equal frames, many to a hop. At CR = 1 each hop is 2 k lines longer, until the
-# car meets the other wall or, if k < 0, is on this one after each frame (by none: caught). If k = 0
-# they stay; but by backward + rebound they wander. At CR < 1 a hop repeats if all its bounces are
-# equally late, by s of a frame: surface's number is s then, rebound's 2 s, and the hop has
-# k (1 + CR)/(1 - CR) lines. s may be 0 to 1. So at CR = 0.9 hops of up to 19 lines may repeat by
-# exact + surface and backward + rebound (the default), up to 37 by exact + rebound, 19 to 38 by
-# forward + surface, 19 to 55 by forward + rebound; by forward + conserve about 19 do. Longer ones
-# come down to such lengths and stay there (by backward + rebound, or rest). By backward + surface,
-# exact + conserve and backward + conserve the car comes to rest.
+# (4) The drop; this alone is an average. A bounce is found up to a frame late, on average half a
+#     frame: the hop ends w dt/2 into the wall (0.05). rebound begins it CR times the overlap before
+#     off the wall, u dt/2 (0.04): the drop is (u + w) dt/2, by (1) hop g dt^2/2, so g dt in (3).
+#     surface begins it on the wall: about half as much. none begins it in the wall, at CR = 1 as
+#     deep as it ends: no drop. conserve: let u and w be those at the wall: no drop, and the same E.
+# So w - u = k g dt, and with (1) w = (hop + k) g dt/2, u = (hop - k) g dt/2. The next hop's u is
+# CR w: next - k = CR (hop + k), the law.
+# Where it leads, in equal frames, many to a hop. At CR = 1 hops grow, on average by 2 k lines, up
+# to the other wall or, if k < 0, shrink until the car is on its wall after each frame (by none:
+# caught). If k = 0 they stay or, by backward + rebound, wander. At CR < 1 a hop repeats if all its
+# bounces are found equally late, by a part s of a frame: surface's number is then s, rebound's
+# nearly 2 s, and next = hop = k (1 + CR)/(1 - CR). s may be 0 to 1. So at CR = 0.9 hops may repeat
+# of up to 19 lines by exact + surface or backward + rebound (the default), up to 37 by exact +
+# rebound, 20 to 38 by forward + surface, 20 to 55 by forward + rebound, about 19 by forward +
+# conserve. Longer hops come down to these and go on, one length or several (or rest, by backward
+# + rebound). By backward + surface, exact and backward + conserve the car comes to rest.
 
 
 # ==== 8. What film, chart and map share in printing =============================================
 
 INKS = {  # marks of film, chart and map: the terminal's number for their colour
-    "0Xx": 31,  # red
+    "0bXx": 31,  # red
     "od-": 32,  # green
     "*<>eWGgLl": 33,  # amber
-    "bPp": 34,  # blue
+    "cPp": 34,  # blue
     "aSs": 35,  # violet
-    "c": 36,  # cyan
 }
 COLOURED = {ord(mark): f"\033[{ink}m{mark}\033[0m"
             for marks, ink in INKS.items() for mark in marks}
@@ -427,10 +426,9 @@ def say(text: str, indent: int = 0) -> None:
 # ==== 9. Speed against accuracy: the chart ======================================================
 
 SPAN_S, CUTS = 20, 10  # of chart and map: simulated seconds, runs of each method
-MEASURED = ("The scene's own motion, correction and rate do not matter, nor do jitter and observed "
-            "dt: all frames are equally long. Each method runs ten times for 20 simulated seconds: "
-            "once from the scene's start, and nine times from the true state a part of a frame "
-            "later, so that the car meets the walls at another point of a frame. The worst counts.")
+MEASURED = ("The scene's own motion, correction and rate do not matter. Each method runs ten times "
+            "for 20 simulated seconds, in equal frames: once from the scene's start, and nine times "
+            "from the true state a part of a frame later, to meet walls elsewhere in a frame.")
 CHART_FPS = (10, 30, 60, 120, 240, 480, 960, 1920, 3840)  # multiples of 10, for simulate
 SERIES = {"a": ("backward", "rebound"), "b": ("exact", "rebound"), "c": ("exact", "conserve"),
           "d": ("exact", "rewind"), "e": ("exact", "replay")}
@@ -466,13 +464,6 @@ def two_digits(us: float) -> str:
     """The cost without an exponent; more digits would be noise."""
     return f"{float(f'{us:.1e}'):g}"
 
-def first_within(series: list[tuple[float, float]], pixel_m: float) -> str:
-    """From which rate on a series stays within a pixel, and what that rate costs."""
-    for index, fps in enumerate(CHART_FPS):
-        if max(error_m for error_m, _ in series[index:]) <= pixel_m:
-            return f"{fps:9}{two_digits(series[index][1]):>6}"
-    return f"   > {CHART_FPS[-1]}      "
-
 def table(scene: Scene) -> Points:
     """Measure every series at every rate, and print it row by row."""
     points: Points = {letter: [] for letter in SERIES}
@@ -489,10 +480,11 @@ def table(scene: Scene) -> Points:
             points[letter].append((error_m, us))
             row += f"{error_m:9.1e}{two_digits(us):>6}"
         print(row, flush=True)
-    pixel_m = 1 / scene.m_to_px
-    print(f"Within a pixel ({1000 * pixel_m:.3g} mm) in all ten runs from this rate on (FPS, us):")
-    cells = (first_within(series, pixel_m) for series in points.values())
-    print(f"    {''.join(cells)}\n")
+    print(f"From {CHART_FPS[-4]} FPS on, twice the rate divides the error by (2: first order, 4: "
+          "second)")
+    orders = (f"{(series[-4][0] / series[-1][0])**(1 / 3):.1f}" if series[-1][0] > 1e-9 else "-"
+              for series in points.values())
+    print("    " + "".join(f"{order:>9}{'':6}" for order in orders) + "\n")
     return points
 
 def error_px(error_m: float) -> int:
@@ -504,9 +496,8 @@ def picture(points: Points, pixel_m: float) -> None:
     marks = [(round(4 * math.log10(us)), error_px(error_m), letter)
              for letter, series in points.items() for error_m, us in series]
     limit_px = error_px(pixel_m)
-    say("To the right: largest error of ten runs, sampled every 0.1 s. Down: processor time for a "
-        "simulated second, in us (microseconds). The best are in the upper left. Right of the | is "
-        "more than a pixel of a film at full size.")
+    say("To the right: largest error of ten runs, every 0.1 s. Down: processor time for a "
+        "simulated second, in us (microseconds). The best are in the upper left.")
     say("; ".join(f"{letter}: {' + '.join(method)}" for letter, method in SERIES.items())
         + "; +: several of them.")
     print(f"\n{'one drawn pixel |':>{limit_px + 11}}")
@@ -518,6 +509,19 @@ def picture(points: Points, pixel_m: float) -> None:
             if cost_px == row:
                 paint(line, letter if chr(line[column]) in f" |{letter}" else "+", column)
         print(f"{two_digits(10 ** (row / 4)):>6}    {inked(line.decode().rstrip())}")
+
+def conclude(points: Points, pixel_m: float) -> None:
+    """Say from which rate on each series stays within a pixel, and at what cost: the answer."""
+    told = []
+    for letter, series in points.items():
+        start = len("".join("-X"[error_m > pixel_m] for error_m, _ in series).rstrip("-"))
+        if start < len(series):
+            us = series[start][1]
+            told.append((us, f"{letter} from {CHART_FPS[start]} FPS on, {two_digits(us)} us"))
+        else:
+            told.append((math.inf, f"{letter} at no rate"))
+    say(f"Within a pixel ({1000 * pixel_m:.3g} mm) in all ten runs, the cheapest first: "
+        f"{'; '.join(text for _, text in sorted(told))}.")
 
 def new_figure(file: str) -> Any:
     """An empty matplotlib figure. Raises BadInput for a wrong suffix or without matplotlib."""
@@ -547,9 +551,11 @@ def draw(figure: Any, points: Points, pixel_m: float, heading: str) -> None:
 def chart(scene: Scene, heading: str, file: str | None) -> None:
     """Print table and picture; with a file, save it too. Raises BadInput where it cannot."""
     figure: Any = None if file is None else new_figure(file)  # fails before the measuring
-    say(f"Speed against accuracy. {heading} {MEASURED}")
+    say(f"Speed against accuracy. {heading} {MEASURED} Which method stays within a pixel of the "
+        "film for the least time?")
     points = table(scene)
     picture(points, 1 / scene.m_to_px)
+    conclude(points, 1 / scene.m_to_px)
     if file is not None:
         try:
             draw(figure, points, 1 / scene.m_to_px, heading)
@@ -598,22 +604,30 @@ def cell(found: set[str]) -> str:
 
 def stability(scene: Scene, whose: str, heading: str) -> None:
     """Print the map: a row for each method, a column for each rate, a letter for ten runs."""
-    say(f"Stability. {heading} {MEASURED}")
+    say(f"Stability. {heading} {MEASURED} Which methods are right, and from which rate on?")
+    print("\nFrom the worst to the best, judged every 0.1 s, or frame if longer:")
+    for letter, meaning in VERDICTS.items():
+        print(f"{inked(letter)}  {meaning}")
     print(f"\n{whose:20}" + "".join(f"{fps:6}" for fps in MAP_FPS), "FPS")
+    right: dict[int, list[str]] = {}  # from which column on: the methods
     for motion in MOTIONS:
         for correction in EVERY_CORRECTION:
             if motion == "exact" or correction not in EXACT_ONLY:
+                name, row = f"{motion} + {correction}", ""
                 method = replace(scene, motion=motion, correction=correction)
-                row = ""
                 for fps in MAP_FPS:
-                    found = {verdict(method, fps, cut) for cut in range(CUTS)}
-                    row += f"{cell(found):>6}"
-                print(f"{f'{motion} + {correction}':20}{inked(row)}", flush=True)
-    for letter, meaning in VERDICTS.items():
-        print(f"{inked(letter)}  {meaning}")
-    say("From the worst to the best. A capital: all ten runs; a small letter: some of the ten, the "
-        "others better, further down. Judged every 0.1 s, or frame if longer. At CR < 1 a G car "
-        "hops on or, at low rates, lies at a wall with a large v.")
+                    row += cell({verdict(method, fps, cut) for cut in range(CUTS)})
+                print(f"{name:20}" + inked("".join(f"{letter:>6}" for letter in row)), flush=True)
+                right.setdefault(len(row.rstrip("-")), []).append(name)
+    say("X out, S stuck, W win or lose, G gain, L loss, P energy right, - within a pixel; a small "
+        "letter: the worst of some runs, not all.")
+    told = [f"{', '.join(right[column])} from {fps} FPS on"
+            for column, fps in enumerate(MAP_FPS) if column in right]
+    say(f"Within a pixel in all ten runs: {'; '.join(told)}.")
+    if scene.a_mps2:
+        say("On one wall, with many frames a hop, by the law of the hops (19, 20, section 7) "
+            "surface, rebound and conserve gain if k > 0 and lose if k < 0." if scene.CR == 1 else
+            "At CR < 1 a G car hops on, or lies at a wall with a large v.")
 
 
 # ==== 11. Checking a scene ======================================================================
@@ -675,11 +689,11 @@ def in_words(scene: Scene) -> str:
     return (f"The car starts at {scene.x_m:g} m{beyond}, {speed}, {pull}; walls at "
             f"{scene.left_edge_m:g} and {scene.right_edge_m:g} m; CR={scene.CR:g}.")
 
-def method_in_words(scene: Scene) -> str:
-    """Motion, correction, frame rate and, where they are set, jitter and observed dt, in words."""
+def film_in_words(scene: Scene) -> str:
+    """That, motion, correction, frame rate and, where they are set, jitter and observed dt."""
     observed = ", each step as long as the frame before" * scene.use_observed_dt
-    return (f"Motion {scene.motion}, correction {scene.correction}, {scene.fps_target:g}"
-            f"{' irregular' * (scene.jitter > 0)} frames a second{observed}.")
+    return (f"{in_words(scene)} Motion {scene.motion}, correction {scene.correction}, "
+            f"{scene.fps_target:g}{' irregular' * (scene.jitter > 0)} frames a second{observed}.")
 
 def fitted(scene: Scene, details: bool) -> Scene:
     """The scene with picture and zoom shrunk together until line and details fit the terminal."""
@@ -710,12 +724,12 @@ def film(scene: Scene, number: int, title: str, options: dict[str, str]) -> int:
     if not isinstance(max_frames, int) or max_frames < 1:
         raise BadInput(f"--frames N must be a whole number from 1 up, not {max_frames!r}")
     say(f"{title}.")
-    say(f"{in_words(scene)} {method_in_words(scene)}")
+    say(film_in_words(scene))
     tell_of_walls(scene)
     view = fitted(scene, details)
-    is_changed = number in EXAMPLES and scene != Scene(**example.settings)
-    as_it_is = "(About the example as it is, without your changes:) " * is_changed
-    question = as_it_is + example.look_for
+    is_changed = (number in EXAMPLES
+                  and film_in_words(scene) != film_in_words(Scene(**example.settings)))
+    question = f"What differs from example {number} as it is?" if is_changed else example.look_for
     with nullcontext() if "--fast" in options else taken_keys() as keys:
         for paragraph in keys.help(question) if keys else [question]:
             say(paragraph)
@@ -724,7 +738,8 @@ def film(scene: Scene, number: int, title: str, options: dict[str, str]) -> int:
         print(flush=True)
         run(view, details, max_frames, keys)
         if keys and keys.frame and not keys.status:
-            say(as_it_is + example.seen)
+            if not is_changed:
+                say(example.seen)
             following = number + 1 if number + 1 in EXAMPLES else "chart"
             if number in EXAMPLES and keys.where():
                 print(f"Next: {PYTHON} airtrack.py {following}", flush=True)

@@ -87,7 +87,8 @@ EXAMPLES = {
         "line? Does every collision show a 0?",
         "The rebound has put the * back on the track, 70 % as far off the wall as it was beyond "
         "it: often in the wall's column. The wall hides the 0 of some of the 19 collisions (with "
-        "d: v does not rise by 0.07). At fps_target=10 at least the first five show theirs."),
+        "d: v does not rise by 0.07). At fps_target=10, in a film that does not end by itself, at "
+        "least the first five show theirs."),
     6: Example("Example 5 zoomed out", {
         "x_m": 2.0, "v_mps": 3.0, "a_mps2": 2.0, "CR": 0.7, "m_to_px": 30.0},
         "The drawing is smaller than in example 5. Does the motion change? Compare after how many "
@@ -125,12 +126,12 @@ EXAMPLES = {
         "cut into frames, as long as no frame holds two bounces (example 12) or misses one (18)."),
     12: Example("The exact solution, losing energy", EXACT | IRREGULAR | {"CR": 0.8},
         "Example 11, but the car keeps 80 % of its speed at each bounce, and the bounces come "
-        "faster and faster. How many are there before it is at rest?",
-        "With d one counts 20: lines in which v rises. Truly there are infinitely many, all before "
-        "t = 11.91 s, the Zeno point. But rewind can settle only one a frame. So the car hops on, "
-        "too low to see, until the film calls it at rest, in frame 130. Yet rewind is all that "
-        "this scene needs: it is up to 4 mm off here, less than a quarter of a column. With "
-        "correction=replay it is at rest in frame 122."),
+        "faster and faster. Is there a last one? When does the car rest?",
+        "Truly there is none: infinitely many bounces are over by t = 11.91 s, the Zeno point. But "
+        "rewind can settle only one a frame. So the car hops on, too low to see, until the film "
+        "calls it at rest, in frame 130. (With d one counts 20 bounces: lines in which v rises.) "
+        "Yet rewind is all that this scene needs: it is up to 4 mm off here, less than a quarter "
+        "of a column. With correction=replay it is at rest in frame 122."),
     13: Example("Forward Euler beside the truth", {
         "x_m": 0.25, "v_mps": 2.48, "a_mps2": -2.0, "CR": 1.0, "motion": "forward",
         "fps_target": 10.0, "show_exact_mark": True},
@@ -250,9 +251,10 @@ else:
 
         def give_back(self) -> None:
             """Leave the terminal as it was found."""
-            if self.found:
+            for _ in range(9 if self.found else 0):  # signals may interrupt it
                 with contextlib.suppress(termios.error):
                     termios.tcsetattr(0, termios.TCSANOW, self.found)
+                    break
 
         def read(self) -> str:
             """The keys since the last call, up to an Esc, with which arrows and reports begin."""

@@ -1,6 +1,7 @@
 """The chart and the stability map: that they show what is true."""
 
 import io
+import math
 import re
 import subprocess
 import sys
@@ -12,10 +13,10 @@ from typing import Any
 import pytest
 
 import airtrack
-from airtrack import MOTIONS, SERIES, Scene, cell, main, verdict
+from airtrack import MOTIONS, SERIES, VERDICTS, Scene, cell, main, verdict
 from examples import EXAMPLES
 from figures import RATES, columns, errors_m, no_measuring, plain_letter, printed, told_plainly
-from films import HERE, apart_m, beside_the_truth, environment
+from films import HERE, K, apart_m, beside_the_truth, environment
 
 Capture = pytest.CaptureFixture[str]
 
@@ -24,7 +25,7 @@ Capture = pytest.CaptureFixture[str]
 def quick(monkeypatch: pytest.MonkeyPatch) -> None:
     """For tests of what is done with the figures: only a few of them."""
     no_measuring(monkeypatch)
-    monkeypatch.setattr(airtrack, "CHART_FPS", (10, 30))
+    monkeypatch.setattr(airtrack, "CHART_FPS", RATES[:4])
     monkeypatch.setattr(airtrack, "MAP_FPS", (1, 2, 5, 10, 30))
 
 
@@ -41,11 +42,12 @@ def test_the_heading_says_what_is_measured_and_is_true(command: str, capsys: Cap
                  "Here all methods start on that wall.", "20 simulated seconds",
                  "motion, correction and rate do not matter"):
         assert part in " ".join(heading.split())
+    assert heading.endswith("?")
     on_it, same = told("4", "CR=0.5", "x_m=0.25", "motion=forward", "fps_target=7")
     assert "beyond" not in on_it
     assert same == rest
     assert "Example 10's scene. The car starts" in told()[0]
-    assert command == "chart" or told("99", "v_mps=1")[1].startswith("Your own scene     ")
+    assert command == "chart" or "\nYour own scene     " in told("99", "v_mps=1")[1]
 
 
 @pytest.mark.parametrize("command", ["chart", "stability"])
@@ -54,7 +56,11 @@ def test_colours_tell_the_letters_apart_on_a_terminal_that_wants_them(
         command: str, monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
     monkeypatch.setattr("sys.stdout.isatty", lambda: True)
     main([command, "12"])
-    drawn = "".join(capsys.readouterr().out.split("\n\n")[1:])
+    out = capsys.readouterr().out
+    following = f"\n\nNext: {airtrack.PYTHON} airtrack.py stability\n"
+    end = following if command == "chart" else "\nThat was the tour. README.md has exercises.\n"
+    assert out.endswith(end)
+    drawn = "".join(out.split("\n\n")[1:])
     inks = {letter: ink for ink, letter in re.findall("\x1b\\[(3[1-6])m(.)\x1b\\[0m", drawn)}
     kinds = "abcde" if command == "chart" else "XSGP-"
     assert len({inks[letter] for letter in kinds}) == 5
@@ -110,26 +116,35 @@ def test_exact_motion_is_at_round_off_where_its_correction_suffices(
 @pytest.mark.parametrize(("words", "pixel_m", "wall_px"), [
     (["10"], 1 / 55, 44), (["12"], 1 / 55, 44), (["14", "m_to_px=1000"], 0.001, 34),
     (["14", "m_to_px=0.001"], 1000, 66), (["10", "m_to_px=0.54"], 1.85, 60)])  # b: 1.8 1.9 1.9 1.4
-def test_the_last_row_says_from_which_rate_on_the_errors_are_within_a_pixel(
+def test_the_end_says_from_which_rate_on_a_series_is_within_a_pixel_the_cheapest_first(
         words: list[str], pixel_m: float, wall_px: int) -> None:
     rates, *cells = columns(*words)
+    told: list[tuple[float, str]] = []
     for column, (letter, (motion, correction)) in zip(cells, SERIES.items(), strict=True):
         assert column[:3] == ([f"{letter}:", motion], ["+", correction], ["error", "m", "us"])
-        expected = [">", "3840"]
+        found = math.inf, f"{letter} at no rate"
         for fps, (error_m, us) in reversed(list(zip(RATES, column[3:-2], strict=True))):
             assert float(us) == float(f"{fps * len(motion) / 10:.1e}")
             if float(error_m) > pixel_m:
                 break
-            expected = [str(fps), us]
-        assert column[-1] == expected
+            found = float(us), f"{letter} from {fps} FPS on, {us} us"
+        told.append(found)
+        first_m, last_m = float(column[8][0]), float(column[11][0])  # three doublings apart
+        order, = column[-1]
+        assert order == "-" if last_m < 1e-9 else (
+            float(order) == pytest.approx((first_m / last_m) ** (1 / 3), rel=0.04))
     assert rates[2:-2] == (["FPS"], *([str(fps)] for fps in RATES))
-    assert f"({1000 * pixel_m:.3g} mm)" in printed("chart", *words)
     *_, advice, picture = printed("chart", *words).split("\n\n")
-    told = " ".join(advice.split())
+    says = " ".join(advice.split())
     for part in ("every 0.1 s", "in us (microseconds)", "The best are in the upper left",
                  *(f"{letter}: {' + '.join(method)}" for letter, method in SERIES.items())):
-        assert part in told
+        assert part in says
     assert picture.index("|") == wall_px
+    assert " ".join(picture.partition("Within a pixel ")[2].split()) == (
+        f"({1000 * pixel_m:.3g} mm) in all ten runs, the cheapest first: "
+        f"{'; '.join(text for _, text in sorted(told))}.")
+    # On a screen of 24 rows with the letters' meanings, an empty line, Next's two and a prompt.
+    assert len(picture.splitlines()) + 2 + 1 + 2 + 1 <= 24 or "14" in words
 
 
 def test_the_cost_is_the_processor_time_of_the_bare_steps_and_the_best_of_five_runs(
@@ -172,7 +187,7 @@ def test_a_coarse_clock_and_a_series_without_any_error_are_no_fault(
         tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
     figure = airtrack.new_figure(".svg")
     monkeypatch.setattr(airtrack, "new_figure", lambda _: figure)
-    monkeypatch.setattr(airtrack, "CHART_FPS", (10, 30))
+    monkeypatch.setattr(airtrack, "CHART_FPS", RATES[:4])
     monkeypatch.setattr("time.process_time", lambda: 1.0)
     assert main(["chart", "99", "x_m=0.25", "a_mps2=-2", "--save", str(tmp_path / "c.svg")]) == 0
     assert "\n  0.01    " in capsys.readouterr().out
@@ -211,8 +226,8 @@ def test_the_saved_picture_has_the_figures_and_explains_itself(
     *curves, pixel = axes.lines
     for curve, (letter, method) in zip(curves, SERIES.items(), strict=True):
         assert curve.get_label() == " + ".join(method)
-        assert list(curve.get_xdata()) == pytest.approx(errors_m("14", letter)[:2], rel=0.051)
-        assert list(curve.get_ydata()) == [len(method[0]), 3 * len(method[0])]
+        assert list(curve.get_xdata()) == pytest.approx(errors_m("14", letter)[:4], rel=0.051)
+        assert list(curve.get_ydata()) == [rate * len(method[0]) for rate in (1, 3, 6, 12)]
     assert len({curve.get_marker() for curve in curves}) == 5
     assert list(pixel.get_xdata()) == [1 / 55, 1 / 55]
     assert (axes.get_xscale(), axes.get_yscale()) == ("log", "log")
@@ -221,7 +236,7 @@ def test_the_saved_picture_has_the_figures_and_explains_itself(
     for part in ("Speed against accuracy\nExample 14's scene. The car starts at 1.65 m, "
                  "moving to the right at 40 m/s, not pulled; walls at 0.25 and 2.2 m; CR=1.",
                  "largest error", "better to the left", "processor time", "better upwards",
-                 "10 FPS", "30 FPS",
+                 "10 FPS", "120 FPS",
                  *(line.get_label() for line in axes.lines), "one drawn pixel, 0.018 m"):
         assert part in "\n".join(said)
     assert figure.bbox_inches.count_contains(figure.get_tightbbox().corners()) == 4  # not cut off
@@ -239,7 +254,7 @@ def test_a_picture_that_cannot_be_saved_is_refused_in_a_line_before_the_measurin
         (tmp_path / "matplotlib.py").write_text(module)
     if "style" in name:
         (tmp_path / "matplotlibrc").write_text("lines.marker: zz")
-    code = ("import sys, airtrack; airtrack.CHART_FPS = (10,); "
+    code = ("import sys, airtrack; airtrack.CHART_FPS = (10,) * 4; "
             "sys.exit(airtrack.main(['chart', '--save', sys.argv[1]]))")
     done = subprocess.run([sys.executable, "-c", code, name], capture_output=True, text=True,
                           cwd=HERE, check=False,
@@ -291,22 +306,42 @@ def test_a_cell_is_the_worst_of_the_cuts_and_small_where_only_some_are_so_bad(
 
 @pytest.mark.parametrize(("example", "CR"), [(10, 1.0), (12, 0.8)])
 def test_the_map_has_the_letters_of_a_plain_retelling(example: int, CR: float) -> None:
-    rates, *lines = printed("stability", str(example)).split("\n\n")[1].splitlines()
+    _, legend, told = printed("stability", str(example)).split("\n\n")
+    assert [line[:3] for line in legend.splitlines()[1:]] == [f"{one}  " for one in VERDICTS]
+    rates, *lines = told.splitlines()
+    assert 1 + len(lines) - 4 * (len(MOTIONS) - 3) <= 21  # a screen, with two more
     assert rates.split("scene")[0] == f"Example {example}'s "
     assert rates.split()[3:] == ["1", "2", "5", "10", "30", "60", "120", "240", "1000", "FPS"]
     any_motion = ["none", "surface", "rebound", "conserve"]
     methods = [(motion, correction) for motion in MOTIONS
                for correction in any_motion + ["rewind", "replay"] * (motion == "exact")]
-    rows, legend = lines[:len(methods)], lines[len(methods):]
-    assert len(legend) <= 10  # with 11 rows, the rates and a last line 23, and a prompt: one screen
-    assert [line[:3] for line in legend[:7]] == [f"{letter}  " for letter in "XSWGLP-"]
-    for (motion, correction), row in zip(methods, rows, strict=True):
-        letters = row.removeprefix(f"{motion} + {correction} ").split()
+    right: dict[int, list[str]] = {int(fps): [] for fps in rates.split()[3:-1]}
+    for (motion, correction), row in zip(methods, lines, strict=False):
+        name = f"{motion} + {correction}"
+        letters = row.removeprefix(f"{name} ").split()
+        for fps in right:
+            if set(letters[list(right).index(fps):]) == {"-"}:
+                right[fps].append(name)
+                break
+        k = K.get(motion, 0) + K.get(correction, 0)
+        if CR == 1 and k and correction != "none":  # at 1 and 2 FPS there are few lines to a hop
+            assert not set(letters[2:]) & set("LlW" if k > 0 else "GgW")
         if correction in ("rewind", "replay"):
             meets_two = (example, correction) == (12, "rewind")  # bounces in a frame
             assert letters == ([*"Gg"] if meets_two else ["-"] * 2) + ["-"] * 7
             continue
-        for fps, letter in zip(rates.split()[3:-1], letters, strict=True):
-            found = {plain_letter(told_plainly(motion, correction, CR, int(fps), cut))
+        for fps, letter in zip(right, letters, strict=True):
+            found = {plain_letter(told_plainly(motion, correction, CR, fps, cut))
                      for cut in range(10)}
             assert letter == cell(found)
+    within = "; ".join(f"{', '.join(right[fps])} from {fps} FPS on" for fps in right if right[fps])
+    energy = "gain if k > 0 and lose if k < 0." if CR == 1 else "At CR < 1 a G car hops on"
+    end = " ".join(" ".join(lines[len(methods):]).split())
+    assert f" not all. Within a pixel in all ten runs: {within}. " in end
+    assert energy in end
+
+
+@pytest.mark.usefixtures("quick")
+def test_a_map_without_a_pull_says_nothing_of_energy(capsys: Capture) -> None:
+    main(["stability", "14", "CR=0.8"])
+    assert capsys.readouterr().out.endswith(" from 30 FPS on.\n")

@@ -95,7 +95,7 @@ def test_settings_come_on_top_of_the_example(capsys: Capture) -> None:
     line = film(capsys, "16", "d", "--frames", "1").lines[0]  # x = 2 - 2 * 0.1**2, truly 1.99
     assert line[135:] == "x =   1.98, v = -0.20, FPS =  10, err = -1.00e-02"
     assert intro.startswith("Example 10: The exact solution, x_m=1.0, v_mps=2.0, a_mps2=0.0. ")
-    assert intro.endswith(f" without your changes:) {EXAMPLES[10].look_for}")
+    assert intro.endswith(" 10 frames a second. What differs from example 10 as it is?")
 
 
 @pytest.mark.parametrize(("words", "told"), [
@@ -105,7 +105,7 @@ def test_settings_come_on_top_of_the_example(capsys: Capture) -> None:
     ("9 CR=0.5", "Example 9: Elastic, large and irregular steps, CR=0.5. The car starts at "
      "2 m, at rest, pulled to the left at 2 m/s^2; walls at 0.25 and 2.2 m; CR=0.5. Motion "
      "backward, correction rebound, 10 irregular frames a second, each step as long as the frame "
-     "before. (About the example as it is, without your changes:) Example 8 "),
+     "before. What differs from example 9 as it is?"),
     ("99 x_m=5 auto_off=False m_to_px=9", "Your own scene, x_m=5.0, auto_off=False, m_to_px=9.0. "
      "The car starts at 5 m, beyond a wall, at rest, not pulled; walls "),
     ("99", "Your own scene. The car starts at 1.1 m, at rest, not pulled: nothing moves it until "

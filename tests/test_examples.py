@@ -213,7 +213,7 @@ def test_10_and_11_are_drawn_on_their_start_mark_at_every_turn(number: int) -> N
 
 
 def test_12_rests_from_its_Zeno_point_on(capsys: Capture) -> None:
-    says(12, "t = 11.91 s", "4 mm", "quarter", "20: lines in which v rises")
+    says(12, "t = 11.91 s", "4 mm", "quarter", "20 bounces: lines in which v rises")
     vs = [details(line)[1] for line in film(capsys, "12", "d").lines]
     assert sum(b > a for a, b in pairwise(vs)) == 20
     fall_s = math.sqrt(2 * 1.75 / 2)

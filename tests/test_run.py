@@ -229,6 +229,11 @@ def test_x_is_answered_within_a_long_frame(clock: Clock, play: Play) -> None:
     assert clock.now_s - began_s == pytest.approx(7, abs=0.1)
 
 
+def test_at_the_frame_limit_the_film_ends_at_once(clock: Clock, play: Play) -> None:
+    play("99 fps_target=0.1 --frames 2")
+    assert clock.now_s == pytest.approx(clock.frames_s[1], abs=0.01)
+
+
 @pytest.mark.parametrize("key", ["p", "P", "\x13"])
 def test_p_pauses_tells_the_moment_and_resumes_without_a_leap(
         key: str, clock: Clock, play: Play) -> None:
@@ -240,6 +245,7 @@ def test_p_pauses_tells_the_moment_and_resumes_without_a_leap(
     assert float(t_s) == pytest.approx(1.1, abs=0.02)
     xs = positions_m(out)
     assert len(xs) in (21, 22)
+    assert set(re.findall(r"FPS = +([0-9]+)", out)) == {"10"}
     for a_m, b_m in pairwise(xs):  # nor does it stand still: the frame is as long as any other
         assert b_m - a_m == pytest.approx(0.04, abs=0.011)
 
@@ -311,16 +317,18 @@ def test_the_keys_are_told_and_the_next_example_is_named_where_there_are_any(
 
 def test_after_the_film_it_is_told_what_was_to_be_seen(
         play: Play, monkeypatch: pytest.MonkeyPatch) -> None:
-    as_it_is = "(About the example as it is, without your changes:) "
-    for words, is_changed in (("10", False), ("10 CR=1", False), ("10 CR=0.9", True),
-                              ("99 v_mps=1", False)):
-        example = EXAMPLES.get(int(words[:2])) or examples.OWN_SCENE
+    for words, is_changed in (("10", False), ("10 CR=1", False), ("10 width_px=60", False),
+                              ("10 auto_off=False", False), ("10 CR=0.9", True),
+                              ("10 fps_target=11", True), ("9 jitter=0", True),
+                              ("9 use_observed_dt=False", True), ("99 v_mps=1", False)):
+        number = int(words.split()[0])
+        example = EXAMPLES.get(number) or examples.OWN_SCENE
         before, _, after = " ".join(play(words, t4="x").split()).partition(": x was pressed. ")
-        assert example.seen not in before
-        assert f". {as_it_is * is_changed}{example.look_for} It begins" in before
-        assert after == as_it_is * is_changed + example.seen
+        question = f"What differs from example {number} as it is?"
+        assert f". {question if is_changed else example.look_for} It begins" in before
+        assert after == ("" if is_changed else example.seen)
     monkeypatch.setattr("sys.stdout.isatty", lambda: True)  # of 80 columns: no change to the scene
-    assert as_it_is not in play("10", t4="x")
+    assert EXAMPLES[10].seen in " ".join(play("10", t4="x").split())
     assert play("10", t1="x").endswith("Stopped after 0 frames, t = 0.00 s: x was pressed.\n")
     assert ending(play("10 --frames 9 --fast")).startswith("Stopped after 9 frames")
 

@@ -136,6 +136,14 @@ def test_a_film_that_is_killed_while_it_is_stopped_ends_when_the_shell_takes_it_
         shell.ends(0)
 
 
+def test_a_terminal_is_given_back_also_if_a_signal_interrupts_that() -> None:
+    change = ("import termios as t, unittest.mock as m; real = examples.Terminal.give_back; "
+              "t.tcsetattr = m.Mock(wraps=t.tcsetattr); examples.Terminal.give_back = lambda self: "
+              "[setattr(t.tcsetattr, 'side_effect', [t.error, m.DEFAULT]), real(self)]")
+    with Terminal(*quick(change), "--frames=9") as terminal:
+        terminal.ends(0)
+
+
 def test_a_terminal_that_refuses_to_change_is_no_error() -> None:
     change = "import termios as t, unittest.mock as m; t.tcsetattr = m.Mock(side_effect=t.error)"
     with Terminal(*quick(change), "--frames=9") as terminal:
