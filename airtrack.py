@@ -427,7 +427,7 @@ def say(text: str, indent: int = 0) -> None:
 
 SPAN_S, CUTS = 20, 10  # of chart and map: simulated seconds, runs of each method
 MEASURED = ("The scene's own motion, correction and rate do not matter. Each method runs ten times "
-            "for 20 simulated seconds, in equal frames: once from the scene's start, and nine times "
+            "for 20 simulated seconds, in equal frames: from the scene's start, and nine times "
             "from the true state a part of a frame later, to meet walls elsewhere in a frame.")
 CHART_FPS = (10, 30, 60, 120, 240, 480, 960, 1920, 3840)  # multiples of 10, for simulate
 SERIES = {"a": ("backward", "rebound"), "b": ("exact", "rebound"), "c": ("exact", "conserve"),

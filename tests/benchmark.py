@@ -17,6 +17,14 @@ from airtrack import SERIES, Scene, cost_us, run
 from examples import EXAMPLES
 
 FRAMES = 20_000
+BARE = """\
+v += a * dt
+x += v * dt
+if not left <= x <= right:
+    wall = left if x < left else right
+    x, v = wall - CR * (x - wall), -CR * v
+"""  # a step of example 8, written out: backward + rebound
+START = "x, v, a, dt, left, right, CR = 2.0, 0.0, -2.0, 0.1, 0.25, 2.2, 1.0"
 
 
 def frame_us(scene: Scene) -> float:
@@ -27,12 +35,14 @@ def frame_us(scene: Scene) -> float:
 
 
 def main() -> None:
-    ten, seven = (Scene(**EXAMPLES[number].settings) for number in (10, 7))
+    ten, eight, seven = (Scene(**EXAMPLES[number].settings) for number in (10, 8, 7))
     line_us = frame_us(ten) - cost_us(ten, 10) / 10
     for motion, correction in SERIES.values():
         step_us = cost_us(replace(ten, motion=motion, correction=correction), 10) / 10
         print(f"example 10 by {motion} + {correction}: a step takes {step_us:.2f} us (as the chart "
               f"measures it), its line {line_us / step_us:.0f} times as long")
+    bare_us = 1e6 / FRAMES * min(repeat(BARE, START, number=FRAMES, timer=time.process_time))
+    print(f"example 8: its step written out takes {10 * bare_us / cost_us(eight, 10):.0%} of it")
     rest = 1 - frame_us(replace(seven, auto_off=False)) / frame_us(seven)
     print(f"example 7: to ask whether the car is at rest takes {rest:.0%} of a frame")
 
