@@ -1,4 +1,4 @@
-"""What a frame of a film costs, as ratios: python tests/benchmark.py
+"""What the parts of a frame cost, as ratios: python tests/benchmark.py
 
 Not a test, which must not depend on a machine's speed. Costs are the least of several runs.
 """
@@ -13,7 +13,7 @@ from timeit import repeat
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
-from airtrack import SERIES, Scene, cost_us, run
+from airtrack import Scene, cost_us, run
 from examples import EXAMPLES
 
 FRAMES = 20_000
@@ -35,12 +35,7 @@ def frame_us(scene: Scene) -> float:
 
 
 def main() -> None:
-    ten, eight, seven = (Scene(**EXAMPLES[number].settings) for number in (10, 8, 7))
-    line_us = frame_us(ten) - cost_us(ten, 10) / 10
-    for motion, correction in SERIES.values():
-        step_us = cost_us(replace(ten, motion=motion, correction=correction), 10) / 10
-        print(f"example 10 by {motion} + {correction}: a step takes {step_us:.2f} us (as the chart "
-              f"measures it), its line {line_us / step_us:.0f} times as long")
+    seven, eight = (Scene(**EXAMPLES[number].settings) for number in (7, 8))
     bare_us = 1e6 / FRAMES * min(repeat(BARE, START, number=FRAMES, timer=time.process_time))
     print(f"example 8: its step written out takes {10 * bare_us / cost_us(eight, 10):.0%} of it")
     rest = 1 - frame_us(replace(seven, auto_off=False)) / frame_us(seven)

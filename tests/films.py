@@ -11,7 +11,7 @@ import sys
 import time
 from collections.abc import Iterator
 from fractions import Fraction
-from itertools import count, islice, pairwise
+from itertools import count, islice, pairwise, product
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -77,6 +77,16 @@ def hops(scene: Scene, number: int) -> list[int]:
     return [b - a for a, b in pairwise(islice(bounces(), number + 1))]
 
 
+def hops_nearby(number: int, lines: int, **changes: object) -> list[list[int]]:
+    """The different hops of an example with changes, its x and v shifted by up to 0.1 %."""
+    settings, found = EXAMPLES[number].settings | changes, []
+    for of_x, of_v in product((1 - 1e-3, 1, 1 + 1e-3), repeat=2):
+        shifted = {"x_m": settings["x_m"] * of_x, "v_mps": settings["v_mps"] * of_v}
+        counted = hops(Scene(**settings | shifted), lines)
+        found += [counted] * (counted not in found)
+    return found
+
+
 def starts(motion: str, correction: str, CR: float, low: float, high: float,
            number: int) -> Iterator[Scene]:
     """Cars about to meet the wall that they are pulled to, at x = 0, for hops of so many lines."""
@@ -93,13 +103,6 @@ def starts(motion: str, correction: str, CR: float, low: float, high: float,
 # The law of the hops: the k of each motion and correction, as airtrack.py has it.
 LAW = (HERE / "airtrack.py").read_text().partition("# ==== 7. ")[2].partition("# ==== 8. ")[0]
 K = {name: float(Fraction(k)) for name, k in re.findall("    ([a-z]+) (-?[0-9/]+)", LAW)}
-
-
-def ends(motion: str, correction: str, CR: float, number: int) -> list[float]:
-    """The mean of the last hops of films whose first ones last 2 to 3 n lines, as the law has n."""
-    n = max(10, (K[motion] + K[correction]) * (1 + CR) / (1 - CR))
-    return [sum(hops(scene, 150)[-20:]) / 20
-            for scene in starts(motion, correction, CR, 2 * n, 3 * n, number)]
 
 
 Beside = list[tuple[float, float, float | None]]  # x, the true x and mark_m, frame by frame
