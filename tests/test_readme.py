@@ -80,9 +80,8 @@ def test_the_lines_of_python_print_what_it_says() -> None:
 
 
 def test_the_map_is_that_of_the_program() -> None:
-    rows = listing("X out, ").splitlines()
-    assert len(rows) == 19
-    assert [line for line in printed("stability", "10").splitlines() if line in rows] == rows
+    told = " ".join(re.sub("(?m)^mean .*", "", printed("stability", "10")).split())
+    assert " ".join(listing("X out, ").split()) in told.replace(", mean + conserve", "")
 
 
 def test_one_collision_is_drawn_by_each_correction_as_the_program_does(capsys: Capture) -> None:
@@ -97,8 +96,8 @@ def test_one_collision_is_drawn_by_each_correction_as_the_program_does(capsys: C
 
 def test_the_lines_of_20_are_those_of_its_film(capsys: Capture) -> None:
     lines = film(capsys, "20", "d", "--frames", "26").lines
-    told = re.findall(r"^(\d+)   (x = .*?) *(?: [a-z].*)?$", listing("found"), re.MULTILINE)
-    assert len(told) == 4
+    told = re.findall(r"(?m)^(\d+)   (x = .{6}, v = .{5})", listing("a bounce was found"))
+    assert [number for number, _ in told] == ["12", "25", "26"]
     assert all(figures in lines[int(number) - 1] for number, figures in told)
 
 
@@ -114,9 +113,8 @@ def test_the_examples_are_those_of_the_program() -> None:
 def test_the_settings_have_the_units_and_defaults_of_the_program() -> None:
     told = re.findall(r"`(\w+)`\s=\s([\w.]+)(?: (1/s|px/m|m/s\^2|m/s|m)\b)?", README)
     assert len(told) == 11
-    for name, default, unit in told:
-        assert SETTINGS[name].metadata["unit"] == unit
-        assert str(SETTINGS[name].default) == default
+    assert told == [(name, str(SETTINGS[name].default), SETTINGS[name].metadata["unit"])
+                    for name, *_ in told]
 
 
 def test_the_hops_are_counted_and_predicted_as_its_tables_say() -> None:
@@ -156,6 +154,10 @@ def test_figures_of_films_and_chart_are_what_it_says(capsys: Capture) -> None:
     told = f"example 16 is up to {worst_m:.1f} m off, its point {errors_m('10', 'a')[0]:.1f} m."
     assert told in README.replace("\n", " ")
     assert errors_m("10", "a")[8] / errors_m("10", "d")[0] == pytest.approx(1e12, rel=0.2)
+    ball, right = (apart_m(beside_the_truth(
+        12, 1200, 0, motion=motion, correction=correction, fps_target=60)[5::6])
+        for motion, correction in (("backward", "surface"), ("exact", "rewind")))
+    assert ball / right > 1000  # "thousands of times as accurate", sampled every 0.1 s
     for correction, told in (("none", "200 frames of example 2"), ("surface", "these 200")):
         error_m = apart_m(beside_the_truth(2, 200, 0, correction=correction)[-1:])
         assert f"({error_m:.1f} m off after {told})" in README

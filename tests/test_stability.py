@@ -140,6 +140,7 @@ def test_a_hop_is_followed_on_average_by_one_of_the_law_s_length(
     off = [after - CR * (hop + k) - k for hop, after in pairs if hop > 1 < after]  # 1: caught
     assert len(off) > (900 if correction == "none" else 999)
     assert abs(sum(off) / len(off)) < 0.1
+    assert max(map(abs, off)) < (1 if correction == "surface" else 2.01)  # lines
 
 
 @pytest.mark.parametrize("CR", [0.5, 0.6, 0.8, 0.9, 0.95])
