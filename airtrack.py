@@ -384,9 +384,9 @@ def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None
 #     frame: the hop ends w dt/2 into the wall (0.05). rebound begins it CR times the overlap before
 #     off the wall, u dt/2 (0.04): the drop is (u + w) dt/2, by (1) hop g dt^2/2, so g dt in (3).
 #     surface begins it on the wall: about half as much. none begins it in the wall, at CR = 1 as
-#     deep as it ends: no drop. conserve: let u and w be those at the wall: no drop, and the same E.
-# So w - u = k g dt, and with (1) w = (hop + k) g dt/2, u = (hop - k) g dt/2. The next hop's u is
-# CR w: next - k = CR (hop + k), the law.
+#     deep as it ends: no drop. conserve: let u and w be those at the wall: no drop; (1) on average.
+# So w - u = k g dt, and with (1) w = (hop + k) g dt/2, u = (hop - k) g dt/2. The next hop's u,
+# (next - k) g dt/2, is CR w: next - k = CR (hop + k), the law.
 # Where it leads, in equal frames, many to a hop. At CR = 1 hops grow, on average by 2 k lines, up
 # to the other wall or, if k < 0, shrink until the car is on its wall after each frame (by none:
 # caught). If k = 0 they stay or, by backward + rebound, wander. At CR < 1 a hop repeats if all its
@@ -394,8 +394,8 @@ def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None
 # nearly 2 s, and next = hop = k (1 + CR)/(1 - CR). s may be 0 to 1. So at CR = 0.9 hops may repeat
 # of up to 19 lines by exact + surface or backward + rebound (the default), up to 37 by exact +
 # rebound, 20 to 38 by forward + surface, 20 to 55 by forward + rebound, about 19 by forward +
-# conserve. Longer hops come down to these and go on, one length or several (or rest, by backward
-# + rebound). By backward + surface, exact and backward + conserve the car comes to rest.
+# conserve. Longer ones come down to these and stay, one length or several (backward + rebound may
+# rest). By backward + surface, exact + conserve and backward + conserve the car comes to rest.
 
 
 # ==== 8. What film, chart and map share in printing =============================================
@@ -625,9 +625,9 @@ def stability(scene: Scene, whose: str, heading: str) -> None:
             for column, fps in enumerate(MAP_FPS) if column in right]
     say(f"Within a pixel in all ten runs: {'; '.join(told)}.")
     if scene.a_mps2:
-        say("On one wall, with many frames a hop, by the law of the hops (19, 20, section 7) "
-            "surface, rebound and conserve gain if k > 0 and lose if k < 0." if scene.CR == 1 else
-            "At CR < 1 a G car hops on, or lies at a wall with a large v.")
+        say("By the law of the hops (examples 19, 20; section 7), on one wall and with many frames "
+            "a hop surface, rebound and conserve gain if k > 0 and lose if k < 0."
+            if scene.CR == 1 else "At CR < 1 a G car hops on, or lies at a wall with a large v.")
 
 
 # ==== 11. Checking a scene ======================================================================
