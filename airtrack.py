@@ -121,7 +121,7 @@ def rewind(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) ->
 
     Right for the exact motion, in a frame that holds one bounce and whose move ends beyond the wall
     (example 10). It cannot settle a second bounce. If the pull brings the car back before the frame
-    ends, it is not asked: a missed event (example 18).
+    ends, rewind is not asked: a missed event (example 18).
     """
     # Run time backwards: v changes its sign, a does not, and the car arrives at the wall.
     side = math.copysign(1, x_m - wall_m)  # 1 beyond the right wall, -1 beyond the left one
