@@ -551,8 +551,8 @@ def draw(figure: Any, points: Points, pixel_m: float, heading: str) -> None:
 def chart(scene: Scene, heading: str, file: str | None) -> None:
     """Print table and picture; with a file, save it too. Raises BadInput where it cannot."""
     figure: Any = None if file is None else new_figure(file)  # fails before the measuring
-    say(f"Speed against accuracy. {heading} {MEASURED} Which method stays within a pixel of the "
-        "film for the least time?")
+    say(f"Speed against accuracy. {heading} {MEASURED} Which method stays within a pixel for the "
+        "least processor time?")
     points = table(scene)
     picture(points, 1 / scene.m_to_px)
     conclude(points, 1 / scene.m_to_px)

@@ -86,9 +86,9 @@ EXAMPLES = {
         "A 0 is where the move alone put the car, beyond the wall. Where is the * in the same "
         "line? Does every collision show a 0?",
         "The rebound has put the * back on the track, 70 % as far off the wall as it was beyond "
-        "it: often in the wall's column. The wall hides the 0 of some of the 19 collisions (with "
-        "d: v does not rise by 0.07). At fps_target=10, in a film that does not end by itself, at "
-        "least the first five show theirs."),
+        "it: often in the wall's column. The wall hides the 0 of some of the 19 collisions (5 d "
+        "shows them: v does not rise by 0.07). At fps_target=10, a film to end with x, at least "
+        "the first five show theirs."),
     6: Example("Example 5 zoomed out", {
         "x_m": 2.0, "v_mps": 3.0, "a_mps2": 2.0, "CR": 0.7, "m_to_px": 30.0},
         "The drawing is smaller than in example 5. Does the motion change? Compare after how many "
@@ -127,11 +127,11 @@ EXAMPLES = {
     12: Example("The exact solution, losing energy", EXACT | IRREGULAR | {"CR": 0.8},
         "Example 11, but the car keeps 80 % of its speed at each bounce, and the bounces come "
         "faster and faster. Is there a last one? When does the car rest?",
-        "Truly there is none: infinitely many bounces are over by t = 11.91 s, the Zeno point. But "
+        "No bounce is the last: infinitely many are over by t = 11.91 s, the Zeno point. But "
         "rewind can settle only one a frame. So the car hops on, too low to see, until the film "
-        "calls it at rest, in frame 130. (With d one counts 20 bounces: lines in which v rises.) "
-        "Yet rewind is all that this scene needs: it is up to 4 mm off here, less than a quarter "
-        "of a column. With correction=replay it is at rest in frame 122."),
+        "calls it at rest, in frame 130. (12 d shows 20 bounces: lines in which v rises.) Yet "
+        "rewind is all that this scene needs: it is up to 4 mm off here, less than a quarter of a "
+        "column. With correction=replay it is at rest in frame 122."),
     13: Example("Forward Euler beside the truth", {
         "x_m": 0.25, "v_mps": 2.48, "a_mps2": -2.0, "CR": 1.0, "motion": "forward",
         "fps_target": 10.0, "show_exact_mark": True},
@@ -181,13 +181,13 @@ EXAMPLES = {
     19: Example("Elastic hops, counted", {
         "x_m": 0.84, "v_mps": 0.098, "a_mps2": -2.0, "CR": 1.0, "correction": "surface",
         "fps_target": 10.0, "show_exact_mark": True},
-        "Elastic, so the o bounces on for ever. And the *? Count each hop's lines, from bounce to "
-        "bounce. (With d v falls by 0.20 a line, except at a bounce.)",
+        "Elastic, so the o bounces on for ever. And the *? Count lines from bounce to bounce. (19 "
+        "d shows v, which falls by 0.20 a line, except at a bounce.)",
         "The hops of the * take 15, 14, 13 ... lines, down to 2 and 1, which are too low to see. "
         "In frame 134 the film calls it at rest. At CR = 1 each hop is 2 k lines longer than the "
         "one before, and k is a sum: -1 for backward, 1/2 for surface, so one line shorter. Now "
         "predict another pair, with 1 for forward, 0 for exact, 1 for rebound, 0 for none. Count "
-        "until the * meets the right wall: add motion=exact, for one."),
+        "until the * meets the right wall. Try motion=exact."),
     20: Example("Hops that lose speed, counted", {
         "x_m": 0.66, "v_mps": 0.75, "a_mps2": -2.0, "CR": 0.8, "motion": "exact",
         "fps_target": 10.0, "show_exact_mark": True},
@@ -195,10 +195,10 @@ EXAMPLES = {
         "hops of the * as in example 19. End with x.",
         "The hops of the * take 14, 12, 10 lines and, from frame 48 on (t = 4.8 s), 9 for ever, "
         "about 20 cm high. On average over many starts a hop is followed by one of CR (hop + k) + "
-        "k lines. Exact has k = 0, rebound adds 1: so 9 by 0.8 (9 + 1) + 1 = 9. The o lies still "
-        "from t = 7.05 s on, its Zeno point, hidden by the wall. At 30 or 60 FPS the hops end at 7 "
-        "to 13 lines, so they are lower; at 120 the film calls them rest. The cure is "
-        "correction=conserve: with it the * comes to rest, as the o does, at about 7 s."),
+        "k lines. Exact has k = 0, rebound adds 1: after 9 come 0.8 (9 + 1) + 1 = 9. The o lies "
+        "still from t = 7.05 s on, its Zeno point. At 30 or 60 FPS the hops end at 7 to 13 lines, "
+        "so they are lower; at 120 the film calls them rest. The cure is correction=conserve: with "
+        "it the * comes to rest, as the o does, at about 7 s."),
 }
 OWN_SCENE = Example("Your own scene", {},
     "How far does the car get from each wall? Does it come to rest?",

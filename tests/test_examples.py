@@ -134,7 +134,7 @@ def test_4_collides_in_its_first_two_frames_and_leaves_at_6_4_mps() -> None:
 def test_5_shows_a_0_where_its_text_says(capsys: Capture) -> None:
     vs = [details(line)[1] for line in film(capsys, "5", "d").lines]
     assert sum(abs(b - a - 0.07) > 0.011 for a, b in pairwise([3.0, *vs])) == 19
-    says(5, "70 %", "19 collisions", "fps_target=10", "the first five", "does not end by itself")
+    says(5, "70 %", "19 collisions", "fps_target=10", "the first five", "to end with x")
     assert film(capsys, "5", "fps_target=10", "--frames=9999").ending.endswith("frame limit.")
     for fps, columns in product((30, 10), (135, 120, 100, 80, 48)):
         scene = Scene(**EXAMPLES[5].settings | {"fps_target": fps})
@@ -269,7 +269,7 @@ def test_19_is_counted_as_its_question_says(capsys: Capture) -> None:
     says(19, "15, 14, 13 ...", "2 and 1", "frame 134", "one line shorter")
     for name in set(K) - {"conserve"}:
         assert f"{K[name]:g} for {name}".replace("0.5", "1/2") in EXAMPLES[19].seen
-    assert "v falls by 0.20" in EXAMPLES[19].look_for
+    assert "v, which falls by 0.20" in EXAMPLES[19].look_for
     vs = [details(line)[1] for line in film(capsys, "19", "d").lines]
     found = [line for line, (a, b) in enumerate(pairwise(vs)) if abs(b - a + 0.20) > 0.011]
     assert [b - a for a, b in pairwise(found)][:15] == [*range(15, 0, -1)]
