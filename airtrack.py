@@ -519,7 +519,7 @@ def conclude(points: Points, pixel_m: float) -> None:
             us = series[start][1]
             told.append((us, f"{letter} from {CHART_FPS[start]} FPS on, {two_digits(us)} us"))
         else:
-            told.append((math.inf, f"{letter} at no rate"))
+            told.append((math.inf, f"{letter} at none of these rates"))
     say(f"Within a pixel ({1000 * pixel_m:.3g} mm) in all ten runs, the cheapest first: "
         f"{'; '.join(text for _, text in sorted(told))}.")
 
@@ -551,8 +551,8 @@ def draw(figure: Any, points: Points, pixel_m: float, heading: str) -> None:
 def chart(scene: Scene, heading: str, file: str | None) -> None:
     """Print table and picture; with a file, save it too. Raises BadInput where it cannot."""
     figure: Any = None if file is None else new_figure(file)  # fails before the measuring
-    say(f"Speed against accuracy. {heading} {MEASURED} Which method stays within a pixel for the "
-        "least processor time?")
+    say(f"Speed against accuracy. {heading} {MEASURED} Which method costs least and stays within "
+        "a pixel of the truth?")
     points = table(scene)
     picture(points, 1 / scene.m_to_px)
     conclude(points, 1 / scene.m_to_px)
@@ -625,9 +625,9 @@ def stability(scene: Scene, whose: str, heading: str) -> None:
             for column, fps in enumerate(MAP_FPS) if column in right]
     say(f"Within a pixel in all ten runs: {'; '.join(told)}.")
     if scene.a_mps2:
-        say("By the law of the hops (examples 19, 20; section 7), on one wall and with many frames "
-            "a hop surface, rebound and conserve gain if k > 0 and lose if k < 0."
-            if scene.CR == 1 else "At CR < 1 a G car hops on, or lies at a wall with a large v.")
+        say("By the law of the hops (examples 19, 20; section 7), on one wall, in many frames a "
+            "hop, a row of surface, rebound or conserve gains if k > 0 and loses if k < 0." if
+            scene.CR == 1 else "At CR < 1 a G car hops on, or is on a wall with too large a v.")
 
 
 # ==== 11. Checking a scene ======================================================================

@@ -123,7 +123,7 @@ def test_the_end_says_from_which_rate_on_a_series_is_within_a_pixel_the_cheapest
     told: list[tuple[float, str]] = []
     for column, (letter, (motion, correction)) in zip(cells, SERIES.items(), strict=True):
         assert column[:3] == ([f"{letter}:", motion], ["+", correction], ["error", "m", "us"])
-        found = math.inf, f"{letter} at no rate"
+        found = math.inf, f"{letter} at none of these rates"
         for fps, (error_m, us) in reversed(list(zip(RATES, column[3:-2], strict=True))):
             assert float(us) == float(f"{fps * len(motion) / 10:.1e}")
             if float(error_m) > pixel_m:
@@ -336,7 +336,7 @@ def test_the_map_has_the_letters_of_a_plain_retelling(example: int, CR: float) -
                      for cut in range(10)}
             assert letter == cell(found)
     within = "; ".join(f"{', '.join(right[fps])} from {fps} FPS on" for fps in right if right[fps])
-    energy = "gain if k > 0 and lose if k < 0." if CR == 1 else "At CR < 1 a G car hops on"
+    energy = "gains if k > 0 and loses if k < 0." if CR == 1 else "At CR < 1 a G car hops on"
     end = " ".join(" ".join(lines[len(methods):]).split())
     assert f" not all. Within a pixel in all ten runs: {within}. " in end
     assert energy in end
