@@ -10,6 +10,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator
+from dataclasses import replace
 from fractions import Fraction
 from itertools import count, islice, pairwise, product
 from pathlib import Path
@@ -78,13 +79,10 @@ def hops(scene: Scene, number: int) -> list[int]:
 
 
 def hops_nearby(number: int, lines: int, **changes: object) -> list[list[int]]:
-    """The different hops of an example with changes, its x and v shifted by up to 0.1 %."""
-    settings, found = EXAMPLES[number].settings | changes, []
-    for of_x, of_v in product((1 - 1e-3, 1, 1 + 1e-3), repeat=2):
-        shifted = {"x_m": settings["x_m"] * of_x, "v_mps": settings["v_mps"] * of_v}
-        counted = hops(Scene(**settings | shifted), lines)
-        found += [counted] * (counted not in found)
-    return found
+    """The hops of an example with changes, its x and v nine times shifted by up to 0.1 %."""
+    scene = Scene(**EXAMPLES[number].settings | changes)
+    return [hops(replace(scene, x_m=scene.x_m * of_x, v_mps=scene.v_mps * of_v), lines)
+            for of_x, of_v in product((1 - 1e-3, 1, 1 + 1e-3), repeat=2)]
 
 
 def starts(motion: str, correction: str, CR: float, low: float, high: float,
@@ -103,7 +101,6 @@ def starts(motion: str, correction: str, CR: float, low: float, high: float,
 # The law of the hops: the k of each motion and correction, as airtrack.py has it.
 LAW = (HERE / "airtrack.py").read_text().partition("# ==== 7. ")[2].partition("# ==== 8. ")[0]
 K = {name: float(Fraction(k)) for name, k in re.findall("    ([a-z]+) (-?[0-9/]+)", LAW)}
-
 
 Beside = list[tuple[float, float, float | None]]  # x, the true x and mark_m, frame by frame
 

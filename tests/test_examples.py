@@ -280,7 +280,7 @@ def test_20_hops_9_lines_or_about_as_many_and_the_truth_lies_still(capsys: Captu
          "7.05 s", "7 to 13 lines", "7 s")
     bounces = [n for n, (_, _, mark_m) in enumerate(states(20, 57), 1) if mark_m is not None]
     assert bounces == [12, 26, 38, 48, 57]
-    assert hops_nearby(20, 23) == [[14, 12, 10] + [9] * 20]
+    assert hops_nearby(20, 23) == [[14, 12, 10] + [9] * 20] * 9
     assert pytest.approx(0.20, abs=0.005) == 2 * (9 * 0.1)**2 / 8
     for fps in (30, 60, 120):
         for lines in hops_nearby(20, 200, fps_target=fps):

@@ -80,8 +80,10 @@ def test_the_lines_of_python_print_what_it_says() -> None:
 
 
 def test_the_map_is_that_of_the_program() -> None:
-    told = " ".join(re.sub("(?m)^mean .*", "", printed("stability", "10")).split())
-    assert " ".join(listing("X out, ").split()) in told.replace(", mean + conserve", "")
+    told, shown = printed("stability", "10"), listing("X out, ")
+    told = " ".join(re.sub("(?m)^mean .*", "", told).split()).replace(", mean + conserve", "")
+    assert shown.count("\n") == 19
+    assert " ".join(shown.split()) in told
 
 
 def test_one_collision_is_drawn_by_each_correction_as_the_program_does(capsys: Capture) -> None:
@@ -139,7 +141,7 @@ def test_the_hops_are_counted_and_predicted_as_its_tables_say() -> None:
         lines = [int(word) for word in re.findall("[0-9]+", text)]
         assert len(lines) >= 3
         changes = {"motion": motion, "correction": correction, "CR": CR}
-        assert hops_nearby(number, len(lines), **changes) == [lines]
+        assert hops_nearby(number, len(lines), **changes) == [lines] * 9
     assert predicted[1:] == [f" {0.8 * (int(hop) + 1) + 1:.1f} " for hop in counted[:-1]]
     law = list(accumulate(range(99), lambda hop, _: 0.6 * (hop + 1.5) + 1.5, initial=11.0))
     assert f" 11, {law[1]:g}, {law[2]:.1f}, {law[3]:.1f} \u2026, and n is {law[-1]:.0f}." in README

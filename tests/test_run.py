@@ -315,6 +315,7 @@ def test_after_the_film_it_is_told_what_was_to_be_seen(
         example = EXAMPLES.get(number) or examples.OWN_SCENE
         before, _, after = " ".join(play(words, t4="x").split()).partition(": x was pressed. ")
         question = f"What differs from example {number} as it is?"
+        assert example.seen not in before
         assert f". {question if is_changed else example.look_for} It begins" in before
         assert after == ("" if is_changed else example.seen)
     monkeypatch.setattr("sys.stdout.isatty", lambda: True)  # of 80 columns: no change to the scene
