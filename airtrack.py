@@ -24,7 +24,7 @@ import textwrap
 import time
 import timeit
 from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import nullcontext
 from dataclasses import Field, dataclass, field, fields, replace
 from functools import cache
@@ -41,9 +41,8 @@ from examples import EXAMPLES, OWN_SCENE, Keys, taken_keys
 #
 # v changes during the frame. Euler's methods hold it constant: forward takes it from the frame's
 # start, backward (for a constant a the same as semi-implicit Euler) from its end. Both are of first
-# order: half the dt, half the error after a given time. exact has no error, for a constant a.
-# E = v^2/2 - a x is the car's energy per kilogram. In free flight it should not change; section
-# 7 uses how much it does by each motion.
+# order: half the dt, half the error after a given time. exact has no error, for a constant a. In
+# free flight the car's energy per kilogram, E = v^2/2 - a x, should not change.
 
 State = tuple[float, float]  # x_m, v_mps
 
@@ -133,6 +132,8 @@ CORRECTIONS = {"none": none, "surface": surface, "rebound": rebound, "conserve":
                "rewind": rewind}
 EVERY_CORRECTION = (*CORRECTIONS, "replay")  # which redoes the whole frame, in section 4
 EXACT_ONLY = ("rewind", "replay")  # they need the exact motion
+METHODS = {"a": ("backward", "rebound"), "b": ("exact", "rebound"), "c": ("exact", "conserve"),
+           "d": ("exact", "rewind"), "e": ("exact", "replay")}  # of example 21 and the chart
 
 
 # ==== 3. The scene: all that a run starts from ==================================================
@@ -162,6 +163,7 @@ class Scene:
     show_start_mark: bool = setting(False, "draw a . where the car started")
     show_collision_mark: bool = setting(True, "in a collision, draw a 0 where the move ended")
     show_exact_mark: bool = setting(False, "draw an o where the car truly is")
+    show_methods: bool = setting(False, "draw a to e where the chart's methods have the car")
 
     def __post_init__(self) -> None:
         check(self)
@@ -243,7 +245,7 @@ def hops(v_mps: float, g_mps2: float, CR: float, t_s: float) -> tuple[float, flo
     return t_s + zeno_s * math.expm1(n * math.log(CR)), v_mps * CR**n
 
 
-# ==== 5. Drawing: one frame, one line ===========================================================
+# ==== 5. Drawing: one frame, one line, painted from back to front ===============================
 
 def paint(line: bytearray, mark: str, x_px: float) -> None:
     """Paint the mark over what is in its column, if the line has that column."""
@@ -252,26 +254,27 @@ def paint(line: bytearray, mark: str, x_px: float) -> None:
         line[column] = ord(mark)
 
 def render_track(scene: Scene, x_m: float, mark_m: float | None = None,
-                 exact_m: float | None = None) -> str:
-    """The picture: scene.width_px characters, painted from back to front."""
+                 others: Mapping[str, State] = {}) -> str:
+    """The picture: scene.width_px characters. others are the other cars, by their marks."""
     line, zoom = bytearray(b" " * scene.width_px), scene.m_to_px
     if scene.show_collision_mark and mark_m is not None:
         paint(line, "0", mark_m * zoom)
     if scene.show_start_mark:
         paint(line, ".", scene.x_m * zoom)
-    if scene.show_exact_mark and exact_m is not None:
-        paint(line, "o", exact_m * zoom)
+    for mark in others:
+        paint(line, mark, others[mark][0] * zoom)
     paint(line, "|", scene.left_edge_m * zoom)
     paint(line, "|", scene.right_edge_m * zoom)
     column, last = round(x_m * zoom), scene.width_px - 1
-    mark = "<" if column < 0 else ">" if column > last else "*"  # < and >: outside the picture
-    paint(line, mark, min(max(column, 0), last))  # after the walls, to be seen even there
+    # < and >: outside the picture. After the walls, to be seen even there.
+    mark, column = ("<", 0) if column < 0 else (">", last) if column > last else ("*", column)
+    paint(line, mark, column)
     return line.decode()
 
-def details_text(x_m: float, v_mps: float, fps: float, true_m: float | None) -> str:
-    """What d adds to a line: position, velocity, frame rate and, given true_m, the error."""
+def details_text(x_m: float, v_mps: float, fps: float, truth: State | None) -> str:
+    """What d adds to a line: position, velocity, frame rate and, given the truth, the error."""
     text = f"x = {x_m:6.2f}, v = {v_mps:5.2f}, FPS = {fps:3.0f}"
-    return text if true_m is None else f"{text}, err = {x_m - true_m:9.2e}"
+    return f"{text}, err = {x_m - truth[0]:9.2e}" if truth else text
 
 
 # ==== 6. The run: the main loop =================================================================
@@ -311,6 +314,13 @@ def truth_of(scene: Scene) -> Scene:
     """The same scene, solved exactly. It has to start on the track."""
     return replace(scene, motion="exact", correction="replay", x_m=scene.to_track(scene.x_m))
 
+def scenes_beside(scene: Scene) -> dict[str, Scene]:
+    """The scenes of the other cars in its film, by their marks, from back to front."""
+    methods = METHODS if scene.show_methods else {}
+    truth = {"o": METHODS["e"]} if scene.show_exact_mark else {}
+    return {mark: replace(truth_of(scene), motion=motion, correction=correction)
+            for mark, (motion, correction) in (methods | truth).items()}
+
 def is_at_rest(scene: Scene, v_mps: float, last_m: deque[float]) -> bool:
     """Whether the car rests against the wall that it is pulled to or, without a pull, against any.
 
@@ -326,22 +336,21 @@ def is_at_rest(scene: Scene, v_mps: float, last_m: deque[float]) -> bool:
 
 def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None:
     """Film the scene until a key, the car at rest or max_frames ends it, and say which it was."""
-    truth = truth_of(scene)
     x_m, v_mps = scene.x_m, scene.v_mps
-    true_m, true_mps = (truth.x_m if scene.show_exact_mark else None), truth.v_mps
+    beside = scenes_beside(scene)
+    others = {mark: (other.x_m, other.v_mps) for mark, other in beside.items()}
     last_m = deque[float](maxlen=max(10, round(scene.fps_target / 3)))  # 1/3 s, at least 10
     frame, t_s, why = 0, 0.0, "that is the frame limit"
     beats = paced(scene, keys) if keys else planned(scene)
     for frame, (length_s, fps) in zip(range(1, max_frames + 1), beats):  # range ends without a wait
-        # Move and settle.
+        # Move and settle; then the other cars, where there are any.
         dt_s = length_s if scene.use_observed_dt else 1 / scene.fps_target
         t_s += dt_s
         x_m, v_mps, mark_m = step(scene, x_m, v_mps, dt_s)
-        if true_m is not None:
-            true_m, true_mps, _ = step(truth, true_m, true_mps, dt_s)
+        others = others and {mark: step(beside[mark], *xv, dt_s)[:2] for mark, xv in others.items()}
         # Draw, on a terminal in colours.
-        line = render_track(scene, x_m, mark_m, true_m)
-        text = details_text(x_m, v_mps, fps, true_m) if details else ""
+        line = render_track(scene, x_m, mark_m, others)
+        text = details_text(x_m, v_mps, fps, others.get("o")) if details else ""
         sys.stdout.write(f"{inked(line) if keys else line}{text}\n")
         if keys:
             keys.count(frame, t_s)
@@ -350,7 +359,8 @@ def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None
         if scene.auto_off and is_at_rest(scene, v_mps, last_m):
             why = "the car is at rest against a wall"
             break
-    why = (keys.why_quit if keys else "") or why
+    if keys:
+        why = keys.why_quit or why
     print(f"Stopped after {frame} frame{'s' * (frame != 1)}, t = {t_s:.2f} s: {why}.", flush=True)
 
 
@@ -400,22 +410,17 @@ def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None
 
 # ==== 8. What film, chart and map share in printing =============================================
 
-INKS = {  # marks of film, chart and map: the terminal's number for their colour
-    "0bXx": 31,  # red
-    "od-": 32,  # green
-    "*<>eWGgLl": 33,  # amber
-    "cPp": 34,  # blue
-    "aSs": 35,  # violet
-}
+# Marks of film, chart and map: the terminal's numbers for red, green, amber, blue and violet.
+INKS = {"0bXx": 31, "od-": 32, "*<>eWGgLl": 33, "cPp": 34, "aSs": 35}
 COLOURED = {ord(mark): f"\033[{ink}m{mark}\033[0m"
             for marks, ink in INKS.items() for mark in marks}
+
+LETTERS = "; ".join(f"{letter}: {' + '.join(method)}" for letter, method in METHODS.items())
 
 def inked(line: str) -> str:
     """The line with its marks in colours, or as it is where nobody wants colours."""
     is_plain = os.environ.get("NO_COLOR") or os.environ.get("TERM", "dumb") == "dumb"
-    if is_plain or not sys.stdout.isatty():
-        return line
-    return line.translate(COLOURED)
+    return line if is_plain or not sys.stdout.isatty() else line.translate(COLOURED)
 
 def say(text: str, indent: int = 0) -> None:
     """Print a paragraph, as wide as the terminal but no wider than is good to read."""
@@ -430,8 +435,6 @@ MEASURED = ("The scene's own motion, correction and rate do not matter. Each met
             "for 20 simulated seconds, in equal frames: from the scene's start, and nine times "
             "from the true state a part of a frame later, to meet walls elsewhere in a frame.")
 CHART_FPS = (10, 30, 60, 120, 240, 480, 960, 1920, 3840)  # multiples of 10, for simulate
-SERIES = {"a": ("backward", "rebound"), "b": ("exact", "rebound"), "c": ("exact", "conserve"),
-          "d": ("exact", "rewind"), "e": ("exact", "replay")}
 Points = dict[str, list[tuple[float, float]]]  # letter: (error_m, cost_us) at each rate
 cached_step = cache(step)  # all methods need the truth at the same moments
 
@@ -460,19 +463,19 @@ def cost_us(scene: Scene, fps: int) -> float:
         globals={"step": step, "scene": scene, "dt_s": 1 / fps})
     return max(1e6 * min(costs_s) / SPAN_S, 0.01)  # a coarse clock may have measured 0
 
-def two_digits(us: float) -> str:
-    """The cost without an exponent; more digits would be noise."""
-    return f"{float(f'{us:.1e}'):g}"
+def two_digits(number: float) -> str:
+    """The number without an exponent; more digits would be noise."""
+    return f"{float(f'{number:.1e}'):g}"
 
 def table(scene: Scene) -> Points:
     """Measure every series at every rate, and print it row by row."""
-    points: Points = {letter: [] for letter in SERIES}
-    print("\n    ", *(f"{f'{letter}: {motion}':>14}" for letter, (motion, _) in SERIES.items()))
-    print("    ", *(f"{f'+ {correction}':>14}" for _, correction in SERIES.values()))
-    print(" FPS" + "  error m    us" * len(SERIES))
+    points: Points = {letter: [] for letter in METHODS}
+    print("\n    ", *(f"{f'{letter}: {motion}':>14}" for letter, (motion, _) in METHODS.items()))
+    print("    ", *(f"{f'+ {correction}':>14}" for _, correction in METHODS.values()))
+    print(" FPS" + "  error m    us" * len(METHODS))
     for fps in CHART_FPS:
         row = f"{fps:4}"
-        for letter, (motion, correction) in SERIES.items():
+        for letter, (motion, correction) in METHODS.items():
             method = replace(scene, motion=motion, correction=correction)
             errors_m = (abs(x_m - true_m) for cut in range(CUTS)
                         for x_m, _, true_m, _ in simulate(method, fps, cut))
@@ -498,8 +501,7 @@ def picture(points: Points, pixel_m: float) -> None:
     limit_px = error_px(pixel_m)
     say("To the right: largest error of ten runs, every 0.1 s. Down: processor time for a "
         "simulated second, in us (microseconds). The best are in the upper left.")
-    say("; ".join(f"{letter}: {' + '.join(method)}" for letter, method in SERIES.items())
-        + "; +: several of them.")
+    say(f"{LETTERS}; +: several of them.")
     print(f"\n{'one drawn pixel |':>{limit_px + 11}}")
     print("    us    <=1 um  10 um   0.1 mm  1 mm    1 cm    0.1 m   1 m     >=10 m")
     for row in range(min(marks)[0], max(marks)[0] + 1):
@@ -520,7 +522,7 @@ def conclude(points: Points, pixel_m: float) -> None:
                 break
             found = us, f"{letter} from {fps} FPS on, {two_digits(us)} us"
         told.append(found)
-    say(f"Within a pixel ({1000 * pixel_m:.3g} mm) in all ten runs, the cheapest first: "
+    say(f"Within a pixel ({two_digits(pixel_m)} m) in all ten runs, the cheapest first: "
         f"{'; '.join(text for _, text in sorted(told))}.")
 
 def new_figure(file: str) -> Any:
@@ -541,24 +543,26 @@ def draw(figure: Any, points: Points, pixel_m: float, heading: str) -> None:
         xscale="log", yscale="log", xlabel="largest error in ten runs (m): better to the left",
         ylabel="processor time for a simulated second (\N{MICRO SIGN}s):\nbetter upwards")
     axes.invert_yaxis()
-    for (letter, series), mark in zip(points.items(), "oxD+v"):
+    for series, method, mark in zip(points.values(), METHODS.values(), "oxD+v"):
         errors_m = [max(error_m, 1e-16) for error_m, _ in series]  # 0 has no logarithm
-        axes.plot(errors_m, [us for _, us in series], f"{mark}-", label=" + ".join(SERIES[letter]))
-    axes.axvline(pixel_m, color="black", linestyle="--", label=f"one drawn pixel, {pixel_m:.2g} m")
+        axes.plot(errors_m, [us for _, us in series], f"{mark}-", label=" + ".join(method))
+    axes.axvline(pixel_m, color="black", linestyle="--",
+                 label=f"one drawn pixel, {two_digits(pixel_m)} m")
     figure.legend(loc="outside lower center", ncols=3, title="Each line begins at "
                   f"{CHART_FPS[0]} FPS, at the top, and ends at {CHART_FPS[-1]} FPS")
 
 def chart(scene: Scene, heading: str, file: str | None) -> None:
     """Print table and picture; with a file, save it too. Raises BadInput where it cannot."""
+    pixel_m = 1 / scene.m_to_px
     figure: Any = None if file is None else new_figure(file)  # fails before the measuring
     say(f"Speed against accuracy. {heading} {MEASURED} Which method costs least and stays within "
         "a pixel of the truth?")
     points = table(scene)
-    picture(points, 1 / scene.m_to_px)
-    conclude(points, 1 / scene.m_to_px)
+    picture(points, pixel_m)
+    conclude(points, pixel_m)
     if file is not None:
         try:
-            draw(figure, points, 1 / scene.m_to_px, heading)
+            draw(figure, points, pixel_m, heading)
             figure.savefig(file, format=file[-3:])  # or it would write .svg as .svg.png
         except Exception as fault:  # whatever matplotlib or the disk refuses
             raise BadInput(f"--save {file!r}: {str(fault) or repr(fault)}") from fault
@@ -575,8 +579,7 @@ VERDICTS = {  # from the worst to the best
     "G": "gain: in the last 5 s over 1 % more energy than the true car, on average",
     "L": "loss: over 1 % less (1 % of v^2/2 at the start + |a| * the track's length)",
     "P": "energy within 1 %, but over a drawn pixel off; at CR < 1 it may still hop",
-    "-": "within a drawn pixel of the truth at every sample",
-}
+    "-": "within a drawn pixel of the truth at every sample"}
 
 def verdict(scene: Scene, fps: int, cut: int) -> str:
     """The letter of one run: the first of X, S, -, G, L and P that fits. W takes several runs."""
@@ -625,9 +628,9 @@ def stability(scene: Scene, whose: str, heading: str) -> None:
             for column, fps in enumerate(MAP_FPS) if column in right]
     say(f"Within a pixel in all ten runs: {'; '.join(told)}.")
     if scene.a_mps2:
-        say("By the law of the hops (examples 19, 20; section 7), on one wall, in many frames a "
-            "hop, a row of surface, rebound or conserve gains if k > 0 and loses if k < 0." if
-            scene.CR == 1 else "At CR < 1 a G car hops on, or is on a wall with too large a v.")
+        say("By the law of the hops (examples 19, 20; section 7 of airtrack.py), long hops on one "
+            "wall gain energy by surface, rebound or conserve if k > 0, lose if k < 0." if
+            scene.CR == 1 else "At CR < 1 a G car hops on, or is on its wall with too large a v.")
 
 
 # ==== 11. Checking a scene ======================================================================
@@ -647,14 +650,13 @@ def allowed_text(row: Field[Any]) -> str:
 def check(scene: Scene) -> None:
     """Raise BadInput, naming setting, range and value, for a scene that is not allowed."""
     for row in fields(scene):
-        value, allowed = getattr(scene, row.name), row.metadata["allowed"]
-        if type(row.default) in NUMBERS:
-            low, high = allowed
-            is_good = isinstance(value, (int, type(row.default))) and low <= value <= high
-        else:
-            is_good = value in allowed
+        value, allowed, kind = getattr(scene, row.name), row.metadata["allowed"], type(row.default)
+        is_good = (isinstance(value, (int, kind)) and allowed[0] <= value <= allowed[1]
+                   if kind in NUMBERS else value in allowed)
         if not is_good:
-            raise BadInput(f"{row.name} must be {allowed_text(row)}, not {value!r}")
+            text = str(value)
+            point = f": write {text.replace(',', '.')}" if kind is float and "," in text else ""
+            raise BadInput(f"{row.name} must be {allowed_text(row)}, not {value!r}{point}")
     left_m, right_m = scene.left_edge_m, scene.right_edge_m
     if round(right_m - left_m, 9) < 0.01:  # 2.21 - 2.2 is a bit less
         raise BadInput("right_edge_m must be at least 0.01 m to the right of left_edge_m, not "
@@ -671,34 +673,34 @@ def check(scene: Scene) -> None:
 # ==== 12. The command line ======================================================================
 
 SETTINGS = {row.name: row for row in fields(Scene)}
-COMMANDS = ("chart", "stability")
 PYTHON = os.path.basename(sys.executable).removesuffix(".exe")  # python3 where there is no python
+COMMANDS = {"chart": f"\nNext: {PYTHON} airtrack.py stability",  # each with its last line
+            "stability": "That was the tour. README.md has exercises."}
+DRAWING = {"m_to_px", "width_px", "show_start_mark", "show_collision_mark", "show_exact_mark"}
 OPTIONS = {"d": "the film", "--fast": "the film", "--frames": "the film", "--save": "chart"}
 
 def in_words(scene: Scene) -> str:
     """How the car starts, in words."""
-    ways = ("to the left", "to the right")
+    v_mps, a_mps2, ways = scene.v_mps, scene.a_mps2, ("to the left", "to the right")
     beyond = "" if scene.x_m == scene.to_track(scene.x_m) else ", beyond a wall"
-    speed, pull = "at rest", "not pulled"
-    if scene.v_mps:
-        speed = f"moving {ways[scene.v_mps > 0]} at {abs(scene.v_mps):g} m/s"
-    if scene.a_mps2:
-        pull = f"pulled {ways[scene.a_mps2 > 0]} at {abs(scene.a_mps2):g} m/s^2"
-    elif not scene.v_mps and not beyond:
-        pull = "not pulled: nothing moves it until v_mps or a_mps2 is given"
+    speed = f"moving {ways[v_mps > 0]} at {abs(v_mps):g} m/s" if v_mps else "at rest"
+    pull = f"pulled {ways[a_mps2 > 0]} at {abs(a_mps2):g} m/s^2" if a_mps2 else "not pulled"
+    if not (beyond or v_mps or a_mps2):
+        pull += ": nothing moves it until v_mps or a_mps2 is given"
     return (f"The car starts at {scene.x_m:g} m{beyond}, {speed}, {pull}; walls at "
             f"{scene.left_edge_m:g} and {scene.right_edge_m:g} m; CR={scene.CR:g}.")
 
 def film_in_words(scene: Scene) -> str:
     """How it starts, motion, correction, frame rate and, where set, jitter and observed dt."""
+    irregular = f", irregular by up to {100 * scene.jitter:g} %" if scene.jitter else ""
     observed = ", each step as long as the frame before" * scene.use_observed_dt
     return (f"{in_words(scene)} Motion {scene.motion}, correction {scene.correction}, "
-            f"{scene.fps_target:g}{' irregular' * (scene.jitter > 0)} frames a second{observed}.")
+            f"{scene.fps_target:g} frames a second{irregular}{observed}.")
 
 def fitted(scene: Scene, details: bool) -> Scene:
     """The scene with picture and zoom shrunk together until line and details fit the terminal."""
-    true_m = 0.0 if scene.show_exact_mark else None
-    widest = details_text(-9999.99, -9999.99, scene.fps_target, true_m) if details else ""
+    truth = (0.0, 0.0) if scene.show_exact_mark else None
+    widest = details_text(-9999.99, -9999.99, scene.fps_target, truth) if details else ""
     columns = shutil.get_terminal_size().columns - len(widest)
     if columns >= scene.width_px or not sys.stdout.isatty():
         return scene
@@ -723,12 +725,14 @@ def film(scene: Scene, number: int, title: str, options: dict[str, str]) -> int:
     max_frames = value_of(int, options.get("--frames", "50000"))
     if not isinstance(max_frames, int) or max_frames < 1:
         raise BadInput(f"--frames N must be a whole number from 1 up, not {max_frames!r}")
-    told = film_in_words(scene)
     say(f"{title}.")
-    say(told)
+    say(film_in_words(scene))
+    if scene.show_methods:
+        say(f"{LETTERS}.")
     tell_of_walls(scene)
     view = fitted(scene, details)
-    is_changed = number in EXAMPLES and told != film_in_words(Scene(**example.settings))
+    changed = {name for name, _ in vars(scene).items() ^ vars(Scene(**example.settings)).items()}
+    is_changed = number in EXAMPLES and not changed <= DRAWING
     question = f"What differs from example {number} as it is?" if is_changed else example.look_for
     with nullcontext() if "--fast" in options else taken_keys() as keys:
         for paragraph in keys.help(question) if keys else [question]:
@@ -764,8 +768,9 @@ def value_of(kind: Callable[[str], object], text: str) -> object:
 
 def refusal(word: str) -> BadInput:
     """The error for an unknown word, with the nearest name."""
-    names = {name.lower(): name for name in ("--help", *COMMANDS, *OPTIONS) if name != "d"}
-    names |= {name.lower(): f"{name}=VALUE" for name in SETTINGS}
+    names = {name.lower(): name for name in ("--help", *COMMANDS, *OPTIONS)}
+    no_spaces = ", without spaces" * ("=" not in word)
+    names |= {name.lower(): f"{name}=VALUE{no_spaces}" for name in SETTINGS}
     start = word.partition("=")[0].lower()
     near = difflib.get_close_matches(start, names, n=1)
     near = near or [name for name in names if start and name.startswith(start)]
@@ -819,12 +824,10 @@ def obey(words: list[str]) -> int:
     heading = f"{whose}{changed}. {in_words(scene)}{beyond}"
     if command == "stability":
         stability(on_track, whose, heading)
-        following = "That was the tour. README.md has exercises."
     else:
         chart(on_track, heading, given.get("--save"))
-        following = f"\nNext: {PYTHON} airtrack.py stability"
     if sys.stdout.isatty():
-        print(following)
+        print(COMMANDS[command])
     return 0
 
 def main(argv: list[str] | None = None) -> int:

@@ -53,11 +53,11 @@ EXAMPLES = {
     1: Example("A first look", {
         "x_m": 2.0, "a_mps2": -1.5, "CR": 0.7, "show_collision_mark": False},
         "Watch the bottom row (cover those above with paper): there the car (*) moves between its "
-        "walls (|). At each bounce, say how far from the left wall it will get.",
-        "It gets 0.87 m, 0.46 m, 0.21 m from the wall: each time about half as far as before. It "
-        "keeps 70 % of its speed in a bounce, so 0.7^2 = 0.49 of its energy. When it has been at "
-        "rest for a third of a second, in frame 251, the film stops by itself. (The word d after "
-        "an example's number, as in 1 d, adds figures to each line.)"),
+        "walls (|). At each bounce, guess what part of the way it will go back.",
+        "About half of it each time: it starts 1.75 m from the wall, and gets back to 0.87 m, 0.46 "
+        "m, 0.21 m. It keeps 70 % of its speed in a bounce, so 0.7^2 = 0.49 of its energy. When it "
+        "has been at rest for a third of a second, in frame 251, the film stops by itself. (The "
+        "word d after an example's number, as in 1 d, adds figures to each line.)"),
     2: Example("No correction", {
         "x_m": 1.65, "v_mps": 2.7, "CR": 1.0, "correction": "none", "show_collision_mark": False},
         "Nothing puts the car back on the track after a collision. How far does it go into the "
@@ -72,7 +72,8 @@ EXAMPLES = {
         "In frame 46 (t = 1.53 s) it is beyond the left wall, and its velocity is reversed. But "
         "with 60 % of its speed it is not out again a frame later. So it is reversed once more, "
         "now into the wall, and so on: it is caught. From then on the pull makes it sink, at last "
-        "by 1 mm a frame. After about nine seconds it is out of the picture: <"),
+        "by 1 mm a frame. (With d, v is then 0.02, off the wall: it is the one after the "
+        "reversal.) After about nine seconds it is out of the picture: <"),
     4: Example("A high frame rate", {
         "x_m": 0.2, "v_mps": 10.0, "a_mps2": -10.0, "CR": 0.8, "fps_target": 300.0,
         "show_collision_mark": False},
@@ -86,8 +87,8 @@ EXAMPLES = {
         "A 0 is where the move alone put the car, beyond the wall. Where is the * in the same "
         "line? Does every collision show a 0?",
         "The rebound has put the * back on the track, 70 % as far off the wall as it was beyond "
-        "it: often in the wall's column. The wall hides the 0 of some of the 19 collisions (5 d "
-        "shows them: v does not rise by 0.07). At fps_target=10, a film to end with x, at least "
+        "it: often in the wall's column. The wall hides the 0 of many of the 19 collisions (with d "
+        "v tells them: it does not rise by 0.07). At fps_target=10, a film to end with x, at least "
         "the first five show theirs."),
     6: Example("Example 5 zoomed out", {
         "x_m": 2.0, "v_mps": 3.0, "a_mps2": 2.0, "CR": 0.7, "m_to_px": 30.0},
@@ -184,10 +185,11 @@ EXAMPLES = {
         "Elastic, so the o bounces on for ever. And the *? Count lines from bounce to bounce. (19 "
         "d shows v, which falls by 0.20 a line, except at a bounce.)",
         "The hops of the * take 15, 14, 13 ... lines, down to 2 and 1, which are too low to see. "
-        "In frame 134 the film calls it at rest. At CR = 1 each hop is 2 k lines longer than the "
-        "one before, and k is a sum: -1 for backward, 1/2 for surface, so one line shorter. Now "
-        "predict another pair, with 1 for forward, 0 for exact, 1 for rebound, 0 for none. Count "
-        "until the * meets the right wall. Try motion=exact."),
+        "In frame 134 the film calls it at rest. At CR = 1 each hop is on average 2 k lines longer "
+        "than the one before, and k is a sum: -1 for backward, 1/2 for surface, so one line "
+        "shorter. With motion=exact, 0 for exact, they last 18, 19, 20 ... lines, until the * "
+        "meets the right wall. Predict others, with 1 for forward, 1 for rebound, 0 for conserve, "
+        "0 for none."),
     20: Example("Hops that lose speed, counted", {
         "x_m": 0.66, "v_mps": 0.75, "a_mps2": -2.0, "CR": 0.8, "motion": "exact",
         "fps_target": 10.0, "show_exact_mark": True},
@@ -199,6 +201,15 @@ EXAMPLES = {
         "still from t = 7.05 s on, its Zeno point. At 30 or 60 FPS the hops end at 7 to 13 lines, "
         "so they are lower; at 120 the film calls them rest. The cure is correction=conserve: with "
         "it the * comes to rest, as the o does, at about 7 s."),
+    21: Example("Five methods on one track", EXACT | {"show_methods": True},
+        "The * is the car of example 10. Which letter leaves it first, which gets furthest away, "
+        "and which two are never seen? Press x after 20 s.",
+        "From this start, a leaves the * at once, in frame 1, and gets up to 0.9 m away within 20 "
+        "s. b and c are moved exactly, as the * is, and leave it only at the first bounce, in "
+        "frame 14. Then b gets furthest away, up to 1.8 m within 20 s: the rebound lifts it off "
+        "the wall and does not slow it. c is slowed as its energy demands: it stays within 10 cm "
+        "for 20 s. d and e are right: they are under the *, so they are never seen. The chart "
+        "measures what each method costs, and how far off it gets from other starts too."),
 }
 OWN_SCENE = Example("Your own scene", {},
     "How far does the car get from each wall? Does it come to rest?",

@@ -1,6 +1,6 @@
 """Makes the README's moving picture from the program's own output: python tests/make_pictures.py
 
-It is a full terminal in which example 10 scrolls, as an animated GIF in .github/. Needs matplotlib
+It is a full terminal in which example 21 scrolls, as an animated GIF in .github/. Needs matplotlib
 (of the test extra), for its Pillow and its monospaced font.
 """
 
@@ -16,41 +16,40 @@ sys.path.insert(0, str(HERE))
 
 from airtrack import INKS  # noqa: E402
 
-COMMAND = "python airtrack.py 10 d m_to_px=36 width_px=88"  # what a README's width has room for
-FRAMES, ROWS, LINE_PX, LETTER_PX, EDGE_PX = 80, 18, 15, 7, 8
+COMMAND = "python airtrack.py 21 m_to_px=36 width_px=88"  # what a README's width has room for
+COLUMNS, FRAMES, ROWS, LINE_PX, LETTER_PX, EDGE_PX = 88, 120, 18, 20, 10, 8
 PAPER, GREY = (24, 24, 27), (190, 190, 196)
-SHADES = {31: (248, 113, 113), 32: (74, 222, 128), 33: (250, 204, 21)}  # of a dark terminal
-INK = {mark: SHADES[ink] for marks, ink in INKS.items() for mark in marks if mark in "*0o"}
-FONT = ImageFont.truetype(findfont("DejaVu Sans Mono"), 12)
+SHADES = {31: (248, 113, 113), 32: (74, 222, 128), 33: (250, 204, 21), 34: (96, 165, 250),
+          35: (216, 140, 255)}  # of a dark terminal: red, green, amber, blue, violet
+INK = {mark: SHADES[ink] for marks, ink in INKS.items() for mark in marks}
+FONT = ImageFont.truetype(findfont("DejaVu Sans Mono:bold"), 16)
 
 
 def film() -> list[str]:
-    """Its frames, with details."""
+    """Its frames."""
     words = [*COMMAND.split(), "--fast", "--frames", str(FRAMES)]
     out = subprocess.run([sys.executable, *words[1:]], text=True, check=True, cwd=HERE,
                          capture_output=True).stdout
-    return [line for line in out.splitlines() if "FPS = " in line]
+    return [line for line in out.splitlines() if len(line) == COLUMNS]
 
 
-def screen(lines: list[str], columns: int) -> Image.Image:
+def screen(lines: list[str]) -> Image.Image:
     """The terminal when the last of the lines has just been printed."""
-    size = columns * LETTER_PX + 2 * EDGE_PX, ROWS * LINE_PX + 2 * EDGE_PX
+    size = COLUMNS * LETTER_PX + 2 * EDGE_PX, ROWS * LINE_PX + 2 * EDGE_PX
     picture = Image.new("RGB", size, PAPER)
     draw = ImageDraw.Draw(picture)
     draw.fontmode = "1"  # no shades between ink and paper: few colours, and each frame the same
     for row, line in enumerate([f"$ {COMMAND}", "", *lines][-ROWS:]):
-        track = line.find("x =")  # marks have their colours on the track alone
         for column, letter in enumerate(line):
-            colour = INK.get(letter, GREY) if column < track else GREY
+            colour = INK.get(letter, GREY) if len(line) == COLUMNS else GREY
             draw.text((EDGE_PX + column * LETTER_PX, EDGE_PX + row * LINE_PX), letter, colour, FONT)
     return picture
 
 
 def main() -> None:
     lines = film()
-    columns = max(map(len, lines))
-    frames = [screen(lines[:n], columns).quantize(8) for n in range(ROWS - 2, FRAMES + 1)]
-    file = HERE / ".github" / "example-10.gif"
+    frames = [screen(lines[:n]).quantize(8) for n in range(ROWS - 2, FRAMES + 1)]
+    file = HERE / ".github" / "example-21.gif"
     frames[0].save(file, save_all=True, append_images=frames[1:], loop=0,
                    duration=[100] * (len(frames) - 1) + [2000], optimize=False)
     print(f"{file.relative_to(HERE)}: {len(frames)} frames, {file.stat().st_size // 1000} kB")

@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 
 import airtrack
-from airtrack import MOTIONS, SERIES, Scene, cell, main, verdict
+from airtrack import METHODS, MOTIONS, Scene, cell, main, verdict
 from examples import EXAMPLES
 from figures import RATES, columns, errors_m, no_measuring, plain_letter, printed, told_plainly
 from films import HERE, K, apart_m, beside_the_truth, environment
@@ -79,7 +79,7 @@ def test_the_errors_are_the_worst_of_ten_cuts_and_of_first_or_second_order(
     errors = errors_m(example, letter)
     for fps, error_m in zip(RATES, errors, strict=True):
         plainly_m = max(abs(x - true_x) for cut in range(10) for x, _, true_x, _ in told_plainly(
-            *SERIES[letter], CR, fps, cut))
+            *METHODS[letter], CR, fps, cut))
         assert error_m == pytest.approx(plainly_m, rel=0.051)
     order = 2 if letter == "c" else 1  # half the step, a quarter of the error; or half of it
     assert 32**order < errors[2] / errors[8] < 128**order
@@ -90,7 +90,7 @@ def test_the_errors_are_the_worst_of_ten_cuts_and_of_first_or_second_order(
 @pytest.mark.parametrize("fps", [10, 30, 60, 120, 240, 480, 960])
 @pytest.mark.parametrize("letter", "abcd")
 def test_no_even_film_is_worse_than_its_chart_says(letter: str, fps: int) -> None:
-    motion, correction = SERIES[letter]
+    motion, correction = METHODS[letter]
     for number in (10, 12):  # 16 d fps_target=960 correction=surface is such a film of 10's scene
         found = beside_the_truth(number, 20 * fps, 0, motion=motion, correction=correction,
                                  fps_target=fps)[fps // 10 - 1::fps // 10]
@@ -114,14 +114,15 @@ def test_exact_motion_is_at_round_off_where_its_correction_suffices(
     assert max(errors[len(known_m):]) < 1e-10
 
 
-@pytest.mark.parametrize(("words", "pixel_m", "wall_px"), [
-    (["10"], 1 / 55, 44), (["12"], 1 / 55, 44), (["14", "m_to_px=1000"], 0.001, 34),
-    (["14", "m_to_px=0.001"], 1000, 66), (["10", "m_to_px=0.54"], 1.85, 60)])  # b: 1.8 1.9 1.9 1.4
+@pytest.mark.parametrize(("words", "pixel_m", "pixel", "wall_px"), [
+    (["10"], 1 / 55, "0.018", 44), (["12"], 1 / 55, "0.018", 44),
+    (["14", "m_to_px=1000"], 0.001, "0.001", 34), (["14", "m_to_px=0.001"], 1000, "1000", 66),
+    (["10", "m_to_px=0.54"], 1.85, "1.9", 60)])  # b: 1.8 1.9 1.9 1.4
 def test_the_end_says_from_which_rate_on_a_series_is_within_a_pixel_the_cheapest_first(
-        words: list[str], pixel_m: float, wall_px: int) -> None:
+        words: list[str], pixel_m: float, pixel: str, wall_px: int) -> None:
     rates, *cells = columns(*words)
     told: list[tuple[float, str]] = []
-    for column, (letter, (motion, correction)) in zip(cells, SERIES.items(), strict=True):
+    for column, (letter, (motion, correction)) in zip(cells, METHODS.items(), strict=True):
         assert column[:3] == ([f"{letter}:", motion], ["+", correction], ["error", "m", "us"])
         found = math.inf, f"{letter} at none of these rates"
         for fps, (error_m, us) in reversed(list(zip(RATES, column[3:-2], strict=True))):
@@ -138,11 +139,11 @@ def test_the_end_says_from_which_rate_on_a_series_is_within_a_pixel_the_cheapest
     *_, advice, picture = printed("chart", *words).split("\n\n")
     says = " ".join(advice.split())
     for part in ("every 0.1 s", "in us (microseconds)", "The best are in the upper left",
-                 *(f"{letter}: {' + '.join(method)}" for letter, method in SERIES.items())):
+                 *(f"{letter}: {' + '.join(method)}" for letter, method in METHODS.items())):
         assert part in says
     assert picture.index("|") == wall_px
     assert " ".join(picture.partition("Within a pixel ")[2].split()) == (
-        f"({1000 * pixel_m:.3g} mm) in all ten runs, the cheapest first: "
+        f"({pixel} m) in all ten runs, the cheapest first: "
         f"{'; '.join(text for _, text in sorted(told))}.")
     # On a screen of 24 rows with the letters' meanings, an empty line, Next's two and a prompt.
     assert len(picture.splitlines()) + 2 + 1 + 2 + 1 <= 24 or "14" in words
@@ -225,7 +226,7 @@ def test_the_saved_picture_has_the_figures_and_explains_itself(
     assert f"Saved as {str(file)!a}." in capsys.readouterr().out  # any terminal can print that
     axes, = figure.axes
     *curves, pixel = axes.lines
-    for curve, (letter, method) in zip(curves, SERIES.items(), strict=True):
+    for curve, (letter, method) in zip(curves, METHODS.items(), strict=True):
         assert curve.get_label() == " + ".join(method)
         assert list(curve.get_xdata()) == pytest.approx(errors_m("14", letter)[:4], rel=0.051)
         assert list(curve.get_ydata()) == [rate * len(method[0]) for rate in (1, 3, 6, 12)]
@@ -336,7 +337,7 @@ def test_the_map_has_the_letters_of_a_plain_retelling(example: int, CR: float) -
                      for cut in range(10)}
             assert letter == cell(found)
     within = "; ".join(f"{', '.join(right[fps])} from {fps} FPS on" for fps in right if right[fps])
-    energy = "gains if k > 0 and loses if k < 0." if CR == 1 else "At CR < 1 a G car hops on"
+    energy = "conserve if k > 0, lose if k < 0." if CR == 1 else "At CR < 1 a G car hops on"
     end = " ".join(" ".join(lines[len(methods):]).split())
     assert f" not all. Within a pixel in all ten runs: {within}. " in end
     assert energy in end

@@ -19,11 +19,11 @@ WRONG = {  # a command line that is refused: what is said of it
     "x_m=5000": "x_m must be a number from -1000 to 1000 m, not 5000.0",
     "chart 3 v_mps=nan": "v_mps must be a number from -1000 to 1000 m/s, not nan",
     "fps_target=": "fps_target must be a number from 0.1 to 1000 1/s, not ''",
-    "CR=0,5": "CR must be a number from 0 to 1, not '0,5'",
+    "CR=0,5": "CR must be a number from 0 to 1, not '0,5': write 0.5",
     "m_to_px=1=2": "m_to_px must be a number from 0.001 to 1000 px/m, not '1=2'",
     "width_px=99.5": "width_px must be a whole number from 10 to 1000 px, not '99.5'",
-    "correction=x": "correction must be none, surface, rebound, conserve, rewind or replay, not "
-                    "'x'",
+    "correction=x,y": "correction must be none, surface, rebound, conserve, rewind or replay, not "
+                      "'x,y'",
     "auto_off=no": "auto_off must be False or True, not 'no'",
     "10 left_edge_m=3": "right_edge_m must be at least 0.01 m to the right of left_edge_m, not 2.2 "
                         "and 3.0",
@@ -40,7 +40,8 @@ WRONG = {  # a command line that is refused: what is said of it
     "--frames": "--frames N must be a whole number from 1 up, not ''",
 }
 NEAREST = {  # a word that is none: the nearest name
-    "fps_taget=10": "fps_target=VALUE", "cr=0.5": "CR=VALUE", "CR": "CR=VALUE", "Chrat": "chart",
+    "fps_taget=10": "fps_target=VALUE", "cr=0.5": "CR=VALUE", "Chrat": "chart",
+    "motion": "motion=VALUE, without spaces", "v": "v_mps=VALUE, without spaces",
     "frames=5": "--frames", "--fast=yes": "--fast", "v=3": "v_mps=VALUE", "a=-9.81": "a_mps2=VALUE"}
 HINTS = {word: f"nearest: {name}" for word, name in NEAREST.items()}
 HINTS |= dict.fromkeys(("ten", "3.5", "=3", "", "a\nb", "9" * 5000), "-h lists all")
@@ -102,10 +103,14 @@ def test_settings_come_on_top_of_the_example(capsys: Capture) -> None:
     ("", "Example 0: The one-pager: the whole engine in its simplest form. The car starts at "
      "11 m, moving to the right at 17 m/s, pulled to the left at 2 m/s^2; walls at 0.5 and "
      "17.5 m; CR=0.8. Motion backward, correction surface, 66.6667 frames a second. An air "),
-    ("9 CR=0.5", "Example 9: Elastic, large and irregular steps, CR=0.5. The car starts at "
-     "2 m, at rest, pulled to the left at 2 m/s^2; walls at 0.25 and 2.2 m; CR=0.5. Motion "
-     "backward, correction rebound, 10 irregular frames a second, each step as long as the frame "
-     "before. What differs from example 9 as it is?"),
+    ("9 jitter=0.29", "Example 9: Elastic, large and irregular steps, jitter=0.29. The car starts "
+     "at 2 m, at rest, pulled to the left at 2 m/s^2; walls at 0.25 and 2.2 m; CR=1. Motion "
+     "backward, correction rebound, 10 frames a second, irregular by up to 29 %, each step as long "
+     "as the frame before. What differs from example 9 as it is?"),
+    ("21", "Example 21: Five methods on one track. The car starts at 2 m, at rest, pulled to the "
+     "left at 2 m/s^2; walls at 0.25 and 2.2 m; CR=1. Motion exact, correction rewind, 10 frames a "
+     "second. a: backward + rebound; b: exact + rebound; c: exact + conserve; d: exact + rewind; "
+     "e: exact + replay. The * is the car of "),
     ("99 x_m=5 auto_off=False m_to_px=9", "Your own scene, x_m=5.0, auto_off=False, m_to_px=9.0. "
      "The car starts at 5 m, beyond a wall, at rest, not pulled; walls "),
     ("99", "Your own scene. The car starts at 1.1 m, at rest, not pulled: nothing moves it until "

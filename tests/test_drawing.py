@@ -6,25 +6,28 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from airtrack import Scene, render_track
+from airtrack import METHODS, Scene, render_track, scenes_beside
+from films import film
 
-ALL_MARKS: dict[str, Any] = {
-    "show_start_mark": True, "show_collision_mark": True, "show_exact_mark": True}
+ALL_MARKS: dict[str, Any] = {"show_start_mark": True, "show_collision_mark": True}
 near = st.sampled_from([0.25, 1.0, 2.2]) | st.floats(-3, 3)  # so that marks meet
 metres = near | st.floats(-1e6, 1e6)
 
 
-@given(x_m=metres, mark_m=metres | st.none(), exact_m=metres | st.none(),
+@given(x_m=metres, mark_m=metres | st.none(), others_m=st.lists(metres, min_size=6, max_size=6),
        start_m=near, width_px=st.integers(10, 200), m_to_px=st.floats(1, 100))
 def test_every_column_shows_the_first_of_the_marks_that_belong_there(
-        x_m: float, mark_m: float | None, exact_m: float | None, start_m: float,
+        x_m: float, mark_m: float | None, others_m: list[float], start_m: float,
         width_px: int, m_to_px: float) -> None:
-    scene = Scene(x_m=start_m, width_px=width_px, m_to_px=m_to_px, **ALL_MARKS)
+    scene = Scene(x_m=start_m, width_px=width_px, m_to_px=m_to_px, show_methods=True,
+                  show_exact_mark=True, **ALL_MARKS)
+    others = {mark: (at_m, 0.0) for mark, at_m in zip(scenes_beside(scene), others_m, strict=True)}
     car_px = round(x_m * m_to_px)
     car = ("<", 0) if car_px < 0 else (">", width_px - 1) if car_px >= width_px else ("*", car_px)
-    ranked = [("|", 0.25), ("|", 2.2), ("o", exact_m), (".", start_m), ("0", mark_m)]
+    ranked = [("|", 0.25), ("|", 2.2), *((mark, others[mark][0]) for mark in "oedcba"),
+              (".", start_m), ("0", mark_m)]
     columns = [car] + [(mark, round(at_m * m_to_px)) for mark, at_m in ranked if at_m is not None]
-    line = render_track(scene, x_m, mark_m, exact_m)
+    line = render_track(scene, x_m, mark_m, others)
     assert len(line) == width_px
     for column, shown in enumerate(line):
         here = [mark for mark, at_px in columns if at_px == column]
@@ -32,10 +35,29 @@ def test_every_column_shows_the_first_of_the_marks_that_belong_there(
 
 
 @pytest.mark.parametrize(("setting", "mark"), [
-    ("show_start_mark", "."), ("show_collision_mark", "0"), ("show_exact_mark", "o")])
+    ("show_start_mark", "."), ("show_collision_mark", "0")])
 def test_a_mark_that_is_off_is_not_drawn(setting: str, mark: str) -> None:
-    assert mark in render_track(Scene(**ALL_MARKS), 0.5, 1.5, 2.0)
-    assert mark not in render_track(Scene(**ALL_MARKS | {setting: False}), 0.5, 1.5, 2.0)
+    assert mark in render_track(Scene(**ALL_MARKS), 0.5, 1.5)
+    assert mark not in render_track(Scene(**ALL_MARKS | {setting: False}), 0.5, 1.5)
+
+
+@pytest.mark.parametrize(("words", "start", "seen"), [
+    ("21", "", "abc"), ("9 show_exact_mark=True", "", "bco"), ("14", "", "e"),
+    ("4 m_to_px=100", "x_m=0.25", "abe")])  # 4: from beyond a wall the letters start on it
+def test_each_letter_stands_where_the_film_of_its_method_has_the_car(
+        words: str, start: str, seen: str, capsys: pytest.CaptureFixture[str]) -> None:
+    asked = [*words.split(), "--frames", "200", "auto_off=False"]
+    shown = film(capsys, *asked, "show_methods=True").lines
+    marks = "".join(METHODS)
+    for letter, (motion, correction) in METHODS.items():
+        alone = film(capsys, *asked, f"motion={motion}", f"correction={correction}", *start.split())
+        for line, its in zip(shown, alone.lines, strict=True):
+            column = its.find("*")  # -1: out of the picture
+            hides = "*<>|o" + marks[marks.index(letter) + 1:]
+            assert line.find(letter) == column or (
+                letter not in line and (column == -1 or line[column] in hides))
+    assert set("".join(shown)) - set(" |*<>.0") == set(seen)
+    assert not set(marks) & set("".join(film(capsys, *asked, "show_methods=False").lines))
 
 
 @pytest.mark.parametrize(("x_m", "mark", "column"), [

@@ -33,6 +33,7 @@ TABLE: list[tuple[str, Any, str, list[Any], list[Any]]] = [
     ("show_start_mark", False, "False or True", [False, True], ["yes"]),
     ("show_collision_mark", True, "False or True", [False, True], [3]),
     ("show_exact_mark", False, "False or True", [False, True], ["o"]),
+    ("show_methods", False, "False or True", [False, True], ["abcde"]),
 ]
 
 
