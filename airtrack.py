@@ -74,20 +74,22 @@ MOTIONS = {"forward": forward, "backward": backward, "exact": exact}  # name a n
 def none(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Reverse v, but leave the car beyond the wall: a trap.
 
-    A frame later it may still be beyond: if CR < 1 has slowed it (example 3), if the motion is
-    backward and the pull is into the wall, or if it is forward and the pull is off the wall. Then v
-    is reversed once more, now into the wall, and so on: the car is caught, often for good.
+    A frame later it may still be beyond: if CR < 1 has slowed it (example 3), or if the way back is
+    shorter, by a dt^2, as by backward with the pull into the wall, or by forward with the pull off
+    it. Then v is reversed once more, now into the wall, and so on: the car is caught, often for
+    good.
     """
     return x_m, -CR * v_mps
 
 def surface(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
-    """Put the car on the wall, so that it cannot sink in."""
+    """Put the car on the wall: moved against a pull into it, and not slowed, it gains energy."""
     return wall_m, -CR * v_mps
 
 def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Put the car CR * overlap off the wall, where it would be by now if nothing pulled at it.
 
-    With CR * overlap longer than the track, it is thrown through the far wall (example 14).
+    Moved further against a pull into the wall, and not slowed either, it gains more energy. With
+    CR * overlap longer than the track, it is thrown through the far wall (example 14).
     """
     overlap_m = x_m - wall_m
     return wall_m - CR * overlap_m, -CR * v_mps
@@ -95,8 +97,8 @@ def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -
 def conserve(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Put the car where rebound puts it, at the speed that its energy after the bounce gives there.
 
-    If that energy does not carry it so far, put it on the wall. Only the moment of the bounce is
-    wrong; with the exact motion this is of second order: half the dt, a quarter of the error.
+    If that energy does not carry it so far, put it on the wall. With the exact motion only the
+    moment of the bounce is wrong, and of second order: half the dt, a quarter of the error.
     """
     overlap_m = x_m - wall_m
     # Back at the wall E is the same, w^2 = v^2 - 2 a overlap, and the bounce leaves CR w.
@@ -367,12 +369,12 @@ def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None
 # ==== 7. The law of the hops ====================================================================
 # A car hops on the wall that it is pulled to. Each hop should last CR times as long as the one
 # before. Count a hop in lines of the film, from one in which a bounce is found to the next such
-# line. On average over many starts, a hop is followed by one of
+# line. After a hop the next one has, on average over many starts,
 #     next = CR (hop + k) + k lines, where k is the motion's number plus the correction's:
 #     forward 1    exact 0    backward -1      surface 1/2    rebound 1    conserve 0    none 0
-# (none: at CR = 1, and until it catches the car. rewind and replay need no law.) Here is the hop
-# that example 20 ends with: exact + rebound, CR = 0.8, dt = 0.1, the pull into the wall g = 2. A
-# column is 1 cm, and from line 0 to line 9 are nine frames.
+# (none only at CR = 1, until it catches the car). Here is the hop that example 20 ends with, and
+# repeats: exact + rebound, CR = 0.8, dt = 0.1, the pull into the wall g = 2; a column is 1 cm. From
+# line 0 to line 9 are nine frames. The 0 is where a move ended, 5 cm in the wall, at v = -1.00.
 #     0:   0    |   *                    v =  0.80
 #     1:        |          *             v =  0.60
 #     2:        |               *        v =  0.40
@@ -382,7 +384,7 @@ def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None
 #     6:        |               *        v = -0.40
 #     7:        |          *             v = -0.60
 #     8:        |   *                    v = -0.80
-#     9:   0    |   *                    v =  0.80    (before the correction v was -1.00)
+#     9:   0    |   *                    v =  0.80
 # Why? Let u be a hop's first speed, off the wall (after the correction: 0.8), w its last one, into
 # the wall (before the correction: 1.0), m the motion's number (0), and drop by how much further
 # into the wall the hop ends than it begins (0.05 + 0.04 = 0.09).
@@ -390,22 +392,27 @@ def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None
 # (2) v^2/2 grows by g drop, from the pull, and in each frame by what the motion adds to E (section
 #     1), m g^2 dt^2/2:  (w^2 - u^2)/2 = g drop + hop m g^2 dt^2/2               0.18 = 2 * 0.09 + 0
 # (3) Twice (2), divided by (1):  w - u = 2 drop/(hop dt) + m g dt               0.2 = 0.18/0.9 + 0
-# (4) The drop; this alone is an average. A bounce is found up to a frame late, on average half a
-#     frame: the hop ends w dt/2 into the wall (0.05). rebound begins it CR times the overlap before
-#     off the wall, u dt/2 (0.04): the drop is (u + w) dt/2, by (1) hop g dt^2/2, so g dt in (3).
-#     surface begins it on the wall: about half as much. none begins it in the wall, at CR = 1 as
-#     deep as it ends: no drop. conserve: let u and w be those at the wall: no drop; (1) on average.
-# So w - u = k g dt, and with (1) w = (hop + k) g dt/2, u = (hop - k) g dt/2. The next hop's u,
-# (next - k) g dt/2, is CR w: next - k = CR (hop + k), the law.
-# Where it leads, in equal frames, many to a hop. At CR = 1 hops grow, on average by 2 k lines, up
-# to the other wall or, if k < 0, shrink until the car is on its wall after each frame (by none:
-# caught). If k = 0 they stay or, by backward + rebound, wander. At CR < 1 a hop repeats if all its
-# bounces are found equally late, by a part s of a frame: surface's number is then s, rebound's
-# nearly 2 s, and next = hop = k (1 + CR)/(1 - CR). s may be 0 to 1. So at CR = 0.9 hops may repeat
-# of up to 19 lines by exact + surface or backward + rebound (the default), up to 37 by exact +
-# rebound, 20 to 38 by forward + surface, 20 to 55 by forward + rebound, about 19 by forward +
-# conserve. Longer ones come down to these and stay, one length or several (backward + rebound may
-# rest). By backward + surface, exact + conserve and backward + conserve the car comes to rest.
+# (4) The drop, on average. A bounce is found late by a part s of a frame, on average 1/2: so a hop
+#     ends about s w dt in the wall (0.05). Where it begins, the correction decides. With both
+#     bounces equally late,
+#     rebound: CR times the last overlap off the wall, s u dt (0.04). The drop is s (u + w) dt, by
+#         (1) s hop g dt^2, and makes 2 s g dt in (3). Its number is 2 s, on average 1.
+#     surface: on the wall. The drop is s w dt, in long hops half as much: s, on average 1/2.
+#     none, at CR = 1: in the wall, as deep as it ends. No drop: 0.
+#     conserve: let u and w be the speeds at the wall itself. No drop: 0. (1) then holds on average.
+# So w - u = k g dt: so much speed each hop gains, however short. With (1) w = (hop + k) g dt/2 and
+# u = (hop - k) g dt/2. The next u, (next - k) g dt/2, is CR w: next - k = CR (hop + k), the law.
+# Where it leads, in equal frames. At CR = 1 hops grow on average, by 2 k lines, up to the other
+# wall. If k < 0 they shrink to rest (by none: until caught); if k = 0 they last or, by backward +
+# rebound, wander. At CR < 1 a hop repeats if s stays the same: then hop = k (1 + CR)/(1 - CR), with
+# the k of that s, above 0 and below 1 (at 1 a hair of speed ends it). Longer hops shrink to the
+# first length that can repeat, by surface with s over 1/2, and shorter ones grow to it. So end, at
+# CR = 0.9, from 98 of 100 starts, hops of 30 to 90 lines, in one length or several in turn:
+#                   + surface     + rebound            + conserve
+#     forward       29 to 37      33 to 48             18 and 19 lines
+#     exact         10 to 18      14 to 30             rest
+#     backward      rest          rest or up to 16     rest
+# Rest: a bounce in every line; v need not be 0. By forward, short hops grow, to 18 lines at least.
 
 
 # ==== 8. What film, chart and map share in printing =============================================

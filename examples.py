@@ -72,8 +72,8 @@ EXAMPLES = {
         "In frame 46 (t = 1.53 s) it is beyond the left wall, and its velocity is reversed. But "
         "with 60 % of its speed it is not out again a frame later. So it is reversed once more, "
         "now into the wall, and so on: it is caught. From then on the pull makes it sink, at last "
-        "by 1 mm a frame. (With d, v is then 0.02, off the wall: it is the one after the "
-        "reversal.) After about nine seconds it is out of the picture: <"),
+        "by 1 mm a frame. (With d, v is then 0.02 though x falls: it is shown after the reversal.) "
+        "After nine or ten seconds it is out of the picture: <"),
     4: Example("A high frame rate", {
         "x_m": 0.2, "v_mps": 10.0, "a_mps2": -10.0, "CR": 0.8, "fps_target": 300.0,
         "show_collision_mark": False},
@@ -186,10 +186,10 @@ EXAMPLES = {
         "d shows v, which falls by 0.20 a line, except at a bounce.)",
         "The hops of the * take 15, 14, 13 ... lines, down to 2 and 1, which are too low to see. "
         "In frame 134 the film calls it at rest. At CR = 1 each hop is on average 2 k lines longer "
-        "than the one before, and k is a sum: -1 for backward, 1/2 for surface, so one line "
-        "shorter. With motion=exact, 0 for exact, they last 18, 19, 20 ... lines, until the * "
-        "meets the right wall. Predict others, with 1 for forward, 1 for rebound, 0 for conserve, "
-        "0 for none."),
+        "than the one before. k is a sum: -1 for backward, 1/2 for surface. So here it is one line "
+        "shorter. With motion=exact, 0 for exact, they last 18, 19, 20 ... lines, for half a "
+        "minute: then the * meets the right wall. Predict others, with 1 for forward, 1 for "
+        "rebound, 0 for conserve, 0 for none."),
     20: Example("Hops that lose speed, counted", {
         "x_m": 0.66, "v_mps": 0.75, "a_mps2": -2.0, "CR": 0.8, "motion": "exact",
         "fps_target": 10.0, "show_exact_mark": True},
@@ -205,11 +205,11 @@ EXAMPLES = {
         "The * is the car of example 10. Which letter leaves it first, which gets furthest away, "
         "and which two are never seen? Press x after 20 s.",
         "From this start, a leaves the * at once, in frame 1, and gets up to 0.9 m away within 20 "
-        "s. b and c are moved exactly, as the * is, and leave it only at the first bounce, in "
-        "frame 14. Then b gets furthest away, up to 1.8 m within 20 s: the rebound lifts it off "
-        "the wall and does not slow it. c is slowed as its energy demands: it stays within 10 cm "
-        "for 20 s. d and e are right: they are under the *, so they are never seen. The chart "
-        "measures what each method costs, and how far off it gets from other starts too."),
+        "s. b and c are moved exactly, as the * is. They leave it only after the first bounce, in "
+        "frame 14. The rebound puts b off the wall, against the pull, and does not slow it: it "
+        "gets furthest away, up to 1.8 m within 20 s. Conserve puts c there too, but slower by "
+        "what that costs: it stays within 10 cm for 20 s. d and e are right, under the *, so they "
+        "are never seen. The chart measures costs, too, and other starts."),
 }
 OWN_SCENE = Example("Your own scene", {},
     "How far does the car get from each wall? Does it come to rest?",

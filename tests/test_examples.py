@@ -107,7 +107,7 @@ def test_2_is_drawn_up_to_8_cm_beyond_the_walls_and_never_stops(capsys: Capture)
 
 
 def test_3_is_caught_in_frame_46_and_sinks_a_millimetre_a_frame(capsys: Capture) -> None:
-    says(3, "frame 46", "t = 1.53 s", "60 %", "1 mm", "v is then 0.02", "nine")
+    says(3, "frame 46", "t = 1.53 s", "60 %", "1 mm", "v is then 0.02", "nine or ten seconds")
     assert round(46 / 30, 2) == 1.53
     xs = [x_m for x_m, _, _ in states(3, 600)]
     assert [x_m < 0.25 for x_m in xs].index(True) + 1 == 46
@@ -117,11 +117,12 @@ def test_3_is_caught_in_frame_46_and_sinks_a_millimetre_a_frame(capsys: Capture)
         b - a for a, b in pairwise(xs[45:52]))  # swings, in and out
     assert (xs[99] - xs[599]) / 500 == pytest.approx(1e-3, rel=0.1)
     assert round(xs[599], 2) == -0.35
-    for narrower, frames in (("width_px=135", 272), ("width_px=80 m_to_px=32.425", 278)):
+    for narrower, frames in (("width_px=135", 272), ("width_px=80 m_to_px=32.425", 278),
+                             ("width_px=43 m_to_px=17.239", 291)):
         _, lines, _ = film(capsys, "3", *narrower.split(), "--frames", "300")
         assert [line.strip()[0] for line in lines[250:]] == ["*"] * (frames - 250) + ["<"] * (
             300 - frames)
-        assert frames / 30 == pytest.approx(9, abs=0.5)
+        assert 9 < frames / 30 < 10
 
 
 def test_4_collides_in_its_first_two_frames_and_leaves_at_6_4_mps() -> None:
@@ -269,8 +270,12 @@ def test_18_misses_a_bounce_in_frame_3(shift: float) -> None:
 
 
 def test_19_is_counted_as_its_question_says(capsys: Capture) -> None:
-    says(19, "15, 14, 13 ...", "2 and 1", "frame 134", "one line shorter", "18, 19, 20 ...")
+    says(19, "15, 14, 13 ...", "2 and 1", "frame 134", "one line shorter", "18, 19, 20 ...",
+         "half a minute")
     assert hops_nearby(19, 11, motion="exact") == [[*range(18, 29)]] * 9
+    longer = beside_the_truth(19, 300, 0, motion="exact")
+    meets, *_ = [n for n, (_, _, mark_m) in enumerate(longer) if mark_m and mark_m > 2.2]
+    assert meets / 10 == pytest.approx(30, abs=3)
     for name in K:
         assert f"{K[name]:g} for {name}".replace("0.5", "1/2") in EXAMPLES[19].seen
     assert "v, which falls by 0.20" in EXAMPLES[19].look_for
