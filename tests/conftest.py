@@ -3,12 +3,13 @@
 import os
 
 import pytest
-from hypothesis import settings
+from hypothesis import HealthCheck, settings
 
 from clock import Clock
 from films import CLEAN
 
-settings.register_profile("airtrack", deadline=None, derandomize=True)  # a slow machine is no fault
+settings.register_profile("airtrack", deadline=None, derandomize=True,  # a slow machine is no fault
+                          suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("airtrack")
 
 

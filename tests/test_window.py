@@ -114,7 +114,7 @@ class Film:
 @pytest.fixture
 def film(screen: Screen, tmp_path: Path) -> Iterator[Film]:
     with (tmp_path / "out").open("wb") as out, subprocess.Popen(
-            COMMAND, stdin=subprocess.DEVNULL, stdout=out, stderr=out, cwd=HERE,
+            quick(pause_s=1e6), stdin=subprocess.DEVNULL, stdout=out, stderr=out, cwd=HERE,
             env=environment(DISPLAY=screen.name, SDL_VIDEODRIVER=None)) as process:
         try:
             yield Film(screen, process, tmp_path / "out")
