@@ -393,21 +393,21 @@ def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None
 #     1), m g^2 dt^2/2:  (w^2 - u^2)/2 = g drop + hop m g^2 dt^2/2               0.18 = 2 * 0.09 + 0
 # (3) Twice (2), divided by (1):  w - u = 2 drop/(hop dt) + m g dt               0.2 = 0.18/0.9 + 0
 # (4) The drop, on average. A bounce is found late by a part s of a frame, on average 1/2: so a hop
-#     ends about s w dt in the wall (0.05). Where it begins, the correction decides. With both
-#     bounces equally late,
+#     ends about s w dt in the wall (0.05). Where it begins, the correction decides. Let its two
+#     bounces be equally late, as they are on average.
 #     rebound: CR times the last overlap off the wall, s u dt (0.04). The drop is s (u + w) dt, by
 #         (1) s hop g dt^2, and makes 2 s g dt in (3). Its number is 2 s, on average 1.
 #     surface: on the wall. The drop is s w dt, in long hops half as much: s, on average 1/2.
 #     none, at CR = 1: in the wall, as deep as it ends. No drop: 0.
-#     conserve: let u and w be the speeds at the wall itself. No drop: 0. (1) then holds on average.
+#     conserve: let u and w be the speeds at the wall. No drop: 0. (1) holds if both are so late.
 # So w - u = k g dt: so much speed each hop gains, however short. With (1) w = (hop + k) g dt/2 and
 # u = (hop - k) g dt/2. The next u, (next - k) g dt/2, is CR w: next - k = CR (hop + k), the law.
 # Where it leads, in equal frames. At CR = 1 hops grow on average, by 2 k lines, up to the other
 # wall. If k < 0 they shrink to rest (by none: until caught); if k = 0 they last or, by backward +
-# rebound, wander. At CR < 1 a hop repeats if s stays the same: then hop = k (1 + CR)/(1 - CR), with
-# the k of that s, above 0 and below 1 (at 1 a hair of speed ends it). Longer hops shrink to the
-# first length that can repeat, by surface with s over 1/2, and shorter ones grow to it. So end, at
-# CR = 0.9, from 98 of 100 starts, hops of 30 to 90 lines, in one length or several in turn:
+# rebound, wander. At CR < 1 a hop repeats if s, above 0 and below 1, stays the same (at 1 a hair of
+# speed ends it): then hop = k (1 + CR)/(1 - CR), with the k of that s. Longer hops shrink to the
+# first length that can repeat, by surface with s over 1/2, and shorter ones grow to one. So hops of
+# 30 to 90 lines end at CR = 0.9, from 98 of 100 starts, in one length or several in turn:
 #                   + surface     + rebound            + conserve
 #     forward       29 to 37      33 to 48             18 and 19 lines
 #     exact         10 to 18      14 to 30             rest
