@@ -402,12 +402,12 @@ def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None
 #     conserve: let u and w be the speeds at the wall. No drop: 0. (1) holds if both are so late.
 # So w - u = k g dt: so much speed each hop gains, however short. With (1) w = (hop + k) g dt/2 and
 # u = (hop - k) g dt/2. The next u, (next - k) g dt/2, is CR w: next - k = CR (hop + k), the law.
-# Where it leads, in equal frames. At CR = 1 hops grow on average, by 2 k lines, up to the other
-# wall. If k < 0 they shrink to rest (by none: until caught); if k = 0 they last or, by backward +
-# rebound, wander. At CR < 1 a hop repeats if s, above 0 and below 1, stays the same (at 1 a hair of
-# speed ends it): then hop = k (1 + CR)/(1 - CR), with the k of that s. Longer hops shrink to the
-# first length that can repeat, by surface with s over 1/2, and shorter ones grow to one. So hops of
-# 30 to 90 lines end at CR = 0.9, from 98 of 100 starts, in one length or several in turn:
+# Where it leads, in equal frames. At CR = 1, from most starts, hops grow by 2 k lines on average,
+# up to the other wall. If k < 0 they shrink to rest (by none: until caught); if k = 0 they last or,
+# by backward + rebound, wander. At CR < 1 a hop repeats if s, above 0 and below 1, stays the same
+# (at 1 a hair of speed ends it): then hop = k (1 + CR)/(1 - CR), with the k of that s. Longer hops
+# shrink to the first length that can repeat, by surface with s over 1/2, and shorter ones grow. So
+# hops of 30 to 90 lines end at CR = 0.9, from 98 of 100 starts, in one length or several in turn:
 #                   + surface     + rebound            + conserve
 #     forward       29 to 37      33 to 48             18 and 19 lines
 #     exact         10 to 18      14 to 30             rest
