@@ -180,10 +180,10 @@ def test_while_a_display_does_not_answer_nothing_is_raw_and_a_signal_ends_the_pr
         display = f"127.0.0.1:{server.getsockname()[1] - 6000}"
         with Terminal(*COMMAND, DISPLAY=display, SDL_VIDEODRIVER="x11") as terminal, (
                 server.accept()[0]):
+            terminal.until("66.6667")  # the header: Ctrl-C may flush what is not yet read
             assert terminal.mode() == terminal.found
             terminal.press(key)
             terminal.ends(status)
-    assert "frames a second." in " ".join(terminal.all.split())  # the header is there
 
 
 # The picture.
