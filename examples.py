@@ -88,8 +88,8 @@ EXAMPLES = {
         "line? Does every collision show a 0?",
         "The rebound has put the * back on the track, 70 % as far off the wall as it was beyond "
         "it: often in the wall's column. The wall hides the 0 of many of the 19 collisions (with d "
-        "v tells them: it does not rise by 0.07). At fps_target=10, a film to end with x, at least "
-        "the first five show theirs."),
+        "v tells them: it does not rise by 0.06 or 0.07). At fps_target=10, a film to end with x, "
+        "at least the first five show theirs."),
     6: Example("Example 5 zoomed out", {
         "x_m": 2.0, "v_mps": 3.0, "a_mps2": 2.0, "CR": 0.7, "m_to_px": 30.0},
         "The drawing is smaller than in example 5. Does the motion change? Compare after how many "
@@ -164,7 +164,7 @@ EXAMPLES = {
     17: Example("Exact motion with the rebound", COARSE | {
         "motion": "exact", "show_exact_mark": True},
         "Now the motion is exact, but the correction is the rebound. When does the * leave the o? "
-        "Does it gain energy or lose some? End it with x.",
+        "Does it gain energy or lose some? Press x after 20 s.",
         "The * stays on the o until the first bounce, in frame 14, and then leaves it: by up to "
         "1.8 m within 20 s. What fails is the rebound. It lifts the car off the wall without "
         "slowing it. So the car gains energy at each bounce off the left wall, to which it is "
@@ -194,7 +194,7 @@ EXAMPLES = {
         "x_m": 0.66, "v_mps": 0.75, "a_mps2": -2.0, "CR": 0.8, "motion": "exact",
         "fps_target": 10.0, "show_exact_mark": True},
         "Each bounce takes 20 % of the speed. Which comes to rest, o or *, and when? Count the "
-        "hops of the * as in example 19. End with x.",
+        "hops of the * as in 19. Press x after 10 s.",
         "The hops of the * take 14, 12, 10 lines and, from frame 48 on (t = 4.8 s), 9 for ever, "
         "about 20 cm high. On average over many starts a hop is followed by one of CR (hop + k) + "
         "k lines. Exact has k = 0, rebound adds 1: after 9 come 0.8 (9 + 1) + 1 = 9. The o lies "
