@@ -82,14 +82,14 @@ def none(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> S
     return x_m, -CR * v_mps
 
 def surface(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
-    """Put the car on the wall: moved against a pull into it, and not slowed, it gains energy."""
+    """Put the car on the wall. Moved against a pull into it, unslowed, it keeps too much energy."""
     return wall_m, -CR * v_mps
 
 def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Put the car CR * overlap off the wall, where it would be by now if nothing pulled at it.
 
-    Moved further against a pull into the wall, and not slowed either, it gains more energy. With
-    CR * overlap longer than the track, it is thrown through the far wall (example 14).
+    Moved further against a pull into the wall, and unslowed, it keeps even more energy. With CR *
+    overlap longer than the track, it is thrown through the far wall (example 14).
     """
     overlap_m = x_m - wall_m
     return wall_m - CR * overlap_m, -CR * v_mps
@@ -97,8 +97,8 @@ def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -
 def conserve(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Put the car where rebound puts it, at the speed that its energy after the bounce gives there.
 
-    If that energy does not carry it so far, put it on the wall. With the exact motion only the
-    moment of the bounce is wrong, and of second order: half the dt, a quarter of the error.
+    If that energy does not carry it so far, put it on the wall. Otherwise, with the exact motion,
+    only the moment of the bounce is wrong, by second order: half the dt, a quarter of the error.
     """
     overlap_m = x_m - wall_m
     # Back at the wall E is the same, w^2 = v^2 - 2 a overlap, and the bounce leaves CR w.
@@ -369,7 +369,7 @@ def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None
 # ==== 7. The law of the hops ====================================================================
 # A car hops on the wall that it is pulled to. Each hop should last CR times as long as the one
 # before. Count a hop in lines of the film, from one in which a bounce is found to the next such
-# line. After a hop the next one has, on average over many starts,
+# line. After a hop of many lines the next one has, on average over many starts,
 #     next = CR (hop + k) + k lines, where k is the motion's number plus the correction's:
 #     forward 1    exact 0    backward -1      surface 1/2    rebound 1    conserve 0    none 0
 # (none only at CR = 1, until it catches the car). Here is the hop that example 20 ends with, and
@@ -400,14 +400,14 @@ def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None
 #     surface: on the wall. The drop is s w dt, in long hops half as much: s, on average 1/2.
 #     none, at CR = 1: in the wall, as deep as it ends. No drop: 0.
 #     conserve: take u and w at the wall: no drop, 0. (1) still holds, as both are equally late.
-# So w - u = k g dt: so much speed each hop gains, however short. With (1) w = (hop + k) g dt/2 and
+# So w - u = k g dt: so much speed a hop gains, even a short one. With (1) w = (hop + k) g dt/2 and
 # u = (hop - k) g dt/2. The next u, (next - k) g dt/2, is CR w: next - k = CR (hop + k), the law.
 # Where it leads, in equal frames. At CR = 1, from most starts, hops grow by 2 k lines on average,
 # up to the other wall. If k < 0 they shrink to rest (by none: until caught); if k = 0 they last or,
 # by backward + rebound, wander. At CR < 1 a hop repeats if s, above 0 and below 1, stays the same
-# (at 1 a hair of speed ends it): then hop = k (1 + CR)/(1 - CR), with the k of that s. Longer hops
-# shrink to the first length that can repeat, by surface with s over 1/2, and shorter ones grow. So
-# hops of 30 to 90 lines end at CR = 0.9, from 98 of 100 starts, in one length or several in turn:
+# (at 1 a hair of speed ends it): then hop = k (1 + CR)/(1 - CR), with the k of that s. Long hops
+# shrink until s stays or recurs, by surface at over 1/2. If k > 0 short ones grow, or repeat. So
+# hops of 30 to 90 lines end at CR = 0.9, from 98 of 100 starts, at one length or several, mixed:
 #                   + surface     + rebound            + conserve
 #     forward       29 to 37      33 to 48             18 and 19 lines
 #     exact         10 to 18      14 to 30             rest
