@@ -204,12 +204,12 @@ EXAMPLES = {
     21: Example("Five methods on one track", EXACT | {"show_methods": True},
         "The * is the car of example 10. Which letter leaves it first, which gets furthest away, "
         "and which two are never seen? Press x after 20 s.",
-        "From this start, a leaves the * at once, in frame 1, and gets up to 0.9 m away within 20 "
-        "s. b and c are moved exactly, as the * is. They leave it only after the first bounce, in "
-        "frame 14. The rebound puts b off the wall, against the pull, and does not slow it: it "
-        "gets furthest away, up to 1.8 m within 20 s. Conserve puts c there too, but slower by "
-        "what that costs: it stays within 10 cm for 20 s. d and e are right, under the *, so they "
-        "are never seen. The chart measures costs, too, and other starts."),
+        "From this start, a leaves the * at once, by 1 cm in frame 1, and gets up to 0.9 m away "
+        "within 20 s. b and c are moved exactly, as the * is. They leave it only after the first "
+        "bounce, in frame 14. The rebound puts b off the wall, against the pull, and does not slow "
+        "it: it gets furthest away, up to 1.8 m within 20 s. Conserve puts c there too, but slower "
+        "by what that costs: it stays within 10 cm for 20 s. d and e are right, under the *, so "
+        "they are never seen. The chart measures costs, too, and other starts."),
 }
 OWN_SCENE = Example("Your own scene", {},
     "How far does the car get from each wall? Does it come to rest?",

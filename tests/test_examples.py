@@ -305,7 +305,7 @@ def test_20_hops_9_lines_or_about_as_many_and_the_truth_lies_still(capsys: Captu
 
 @pytest.mark.parametrize("shift", [-1e-3, 0, 1e-3])
 def test_21_shows_what_the_chart_measures(shift: float, capsys: Capture) -> None:
-    says(21, "frame 1", "0.9 m", "frame 14", "1.8 m", "10 cm")
+    says(21, "1 cm in frame 1", "0.9 m", "frame 14", "1.8 m", "10 cm")
     for letter, left, off_m in (("a", 1, 0.9), ("b", 14, 1.8), ("c", 14, 0.06)):
         motion, correction = METHODS[letter]
         found = beside_the_truth(21, 200, shift, motion=motion, correction=correction)
