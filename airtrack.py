@@ -399,7 +399,7 @@ def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None
 #         (1) s hop g dt^2, and makes 2 s g dt in (3). Its number is 2 s, on average 1.
 #     surface: on the wall. The drop is s w dt, in long hops half as much: s, on average 1/2.
 #     none, at CR = 1: in the wall, as deep as it ends. No drop: 0.
-#     conserve: take u and w at the wall: no drop, 0. (1) still holds, as both are equally late.
+#     conserve: take u and w at the wall. (1) still holds, as both are equally late. No drop: 0.
 # So w - u = k g dt: so much speed a hop gains, even a short one. With (1) w = (hop + k) g dt/2 and
 # u = (hop - k) g dt/2. The next u, (next - k) g dt/2, is CR w: next - k = CR (hop + k), the law.
 # Where it leads, in equal frames. At CR = 1, from most starts, hops grow by 2 k lines on average,
