@@ -129,7 +129,8 @@ def test_a_signal_at_any_step_of_a_run_leaves_no_traceback_and_the_terminal_as_i
 def test_a_film_that_is_killed_while_it_is_stopped_ends_when_the_shell_takes_it_up_again() -> None:
     stopped = "until jobs | grep -q Stopped; do sleep 0.1; done"
     with Terminal("bash", "--norc", "--noprofile", "-i", PS1="% ") as shell:
-        for line, told in ((f"{shlex.join(quick())} &", "% "), (stopped, "% "), ("kill %1", "% "),
+        for line, told in ((f"{shlex.join(quick())} &", "% "), (stopped, "% "),
+                           ("kill %1", "holds this text."), (stopped, "% "),  # goes on, and stops
                            ("fg", "s: SIGTERM."), ("echo status $?", "status 143"), ("exit", "")):
             shell.press(f"{line}\n")
             shell.until(told)
