@@ -738,7 +738,8 @@ def film(scene: Scene, number: int, title: str, options: dict[str, str]) -> int:
         say(f"{LETTERS}.")
     tell_of_walls(scene)
     view = fitted(scene, details)
-    changed = {name for name, _ in vars(scene).items() ^ vars(Scene(**example.settings)).items()}
+    as_it_is = Scene(**example.settings)
+    changed = {name for name in SETTINGS if getattr(scene, name) != getattr(as_it_is, name)}
     is_changed = number in EXAMPLES and not changed <= DRAWING
     question = f"What differs from example {number} as it is?" if is_changed else example.look_for
     with nullcontext() if "--fast" in options else taken_keys() as keys:
