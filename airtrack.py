@@ -318,10 +318,10 @@ def truth_of(scene: Scene) -> Scene:
 
 def scenes_beside(scene: Scene) -> dict[str, Scene]:
     """The scenes of the other cars in its film, by their marks, from back to front."""
-    methods = METHODS if scene.show_methods else {}
-    truth = {"o": METHODS["e"]} if scene.show_exact_mark else {}
-    return {mark: replace(truth_of(scene), motion=motion, correction=correction)
-            for mark, (motion, correction) in (methods | truth).items()}
+    truth = truth_of(scene)
+    methods = {letter: replace(truth, motion=motion, correction=correction)
+               for letter, (motion, correction) in METHODS.items() if scene.show_methods}
+    return methods | ({"o": truth} if scene.show_exact_mark else {})
 
 def is_at_rest(scene: Scene, v_mps: float, last_m: deque[float]) -> bool:
     """Whether the car rests against the wall that it is pulled to or, without a pull, against any.
