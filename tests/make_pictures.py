@@ -16,8 +16,9 @@ sys.path.insert(0, str(HERE))
 
 from airtrack import INKS  # noqa: E402
 
-COMMAND = "python airtrack.py 21 m_to_px=36 width_px=88"  # what a README's width has room for
-COLUMNS, FRAMES, ROWS, LINE_PX, LETTER_PX, EDGE_PX = 88, 120, 18, 20, 10, 8
+COLUMNS = 88  # what a README's width has room for
+COMMAND = f"python airtrack.py 21 m_to_px=36 width_px={COLUMNS}"
+FRAMES, ROWS, LINE_PX, LETTER_PX, EDGE_PX = 120, 18, 20, 10, 8
 PAPER, GREY = (24, 24, 27), (190, 190, 196)
 SHADES = {31: (248, 113, 113), 32: (74, 222, 128), 33: (250, 204, 21), 34: (96, 165, 250),
           35: (216, 140, 255)}  # of a dark terminal: red, green, amber, blue, violet
@@ -30,7 +31,7 @@ def film() -> list[str]:
     words = [*COMMAND.split(), "--fast", "--frames", str(FRAMES)]
     out = subprocess.run([sys.executable, *words[1:]], text=True, check=True, cwd=HERE,
                          capture_output=True).stdout
-    return [line for line in out.splitlines() if len(line) == COLUMNS]
+    return out.partition("\n\n")[2].splitlines()[:FRAMES]
 
 
 def screen(lines: list[str]) -> Image.Image:
@@ -41,7 +42,7 @@ def screen(lines: list[str]) -> Image.Image:
     draw.fontmode = "1"  # no shades between ink and paper: few colours, and each frame the same
     for row, line in enumerate([f"$ {COMMAND}", "", *lines][-ROWS:]):
         for column, letter in enumerate(line):
-            colour = INK.get(letter, GREY) if len(line) == COLUMNS else GREY
+            colour = GREY if line.startswith("$") else INK.get(letter, GREY)
             draw.text((EDGE_PX + column * LETTER_PX, EDGE_PX + row * LINE_PX), letter, colour, FONT)
     return picture
 

@@ -22,10 +22,19 @@ import airtrack
 from airtrack import CORRECTIONS, EVERY_CORRECTION, MOTIONS, SETTINGS, Scene
 from examples import EXAMPLES
 from figures import errors_m, printed
-from films import HERE, K, apart_m, beside_the_truth, details, environment, film, hops_nearby
+from films import (
+    HERE,
+    README,
+    K,
+    apart_m,
+    beside_the_truth,
+    details,
+    environment,
+    film,
+    hops_nearby,
+)
 
 Capture = pytest.CaptureFixture[str]
-README = (HERE / "README.md").read_text(encoding="utf-8")
 LISTINGS: list[str] = re.findall(r"^```\w*\n(.*?)^```$", README, re.MULTILINE | re.DOTALL)
 COMMANDS = sorted(set(re.findall(
     r"(?:python3?|py)\s+airtrack\.py ?([^`\[\n]*?)(?=`| *\n|$)", README)))

@@ -16,7 +16,7 @@ from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 from airtrack import CORRECTIONS, MOTIONS, Scene, step
-from films import HERE, LAW, K, details, film, hops, starts
+from films import LAW, README, K, details, film, hops, starts
 
 speeds = st.floats(-50, 50)
 pulls = st.floats(-50, 50)
@@ -107,8 +107,7 @@ def test_conserve_leaves_CR_squared_of_the_energy_above_the_wall(
 
 FOUND = [(motion, correction) for motion in ("forward", "exact", "backward")
          for correction in ("surface", "rebound", "conserve")]
-TOLD, README = (" ".join(text.replace("#", "").split()) for text in (
-    LAW, (HERE / "README.md").read_text(encoding="utf-8")))
+TOLD, PAGE = (" ".join(text.replace("#", "").split()) for text in (LAW, README))
 
 
 @pytest.mark.parametrize("correction", ["none", "surface", "rebound"])
@@ -203,21 +202,24 @@ def test_hops_that_lose_speed_end_where_table_and_page_say(motion: str, correcti
         least, = re.findall("By forward, short hops grow, to ([0-9]+) lines at least", TOLD)
         assert min(map(min, ends(0.9, 2, 17, 100))) >= int(least)
     k = K[motion] + K[correction]
-    limits = {"surface": "between n, rounded (down), and ([0-9])n lines by surface",
-              "rebound": "between ([0-9.]+) n and ([0-9.]+) n by rebound", "conserve": "()()"}
-    (lowest_n, highest_n), = re.findall(limits[correction], README)[:1]
-    least_CR, most_CR = map(float, re.findall("CR from ([0-9.]+) to ([0-9.]+)", README)[0])
-    rng = random.Random(f"{motion} {correction}")
+    of_n, = re.findall("between n, rounded down, and ([0-9])n lines by surface", PAGE)
+    low_n, high_n = re.findall("between ([0-9.]+) n and ([0-9.]+) n by rebound", PAGE)[0]
+    least_CR, most_CR = map(float, re.findall("CR from ([0-9.]+) to ([0-9.]+)", PAGE)[0])
+    rng, shortest = random.Random(f"{motion} {correction}"), []
     for CR in (rng.uniform(least_CR, most_CR) for _ in range(100)):
         n = k * (1 + CR) / (1 - CR)
         lengths, = ends(CR, max(20, 2 * n), max(30, 3 * n), 1)
-        if k > 0 and correction != "conserve":
-            low = math.floor(n) if correction == "surface" else float(lowest_n) * n
-            assert low <= min(lengths) <= max(lengths) <= float(highest_n) * n
+        shortest.append(min(lengths))
+        if k > 0:
+            low, high = {"surface": (math.floor(n), int(of_n) * n),
+                         "rebound": (float(low_n) * n, float(high_n) * n),
+                         "conserve": (n - 2.1, n + 1.3)}[correction]
+            assert low <= min(lengths) <= max(lengths) <= high
         elif k == 0 and correction == "rebound":
             assert max(lengths) < (1 + CR) / (1 - CR)  # the default
-        elif k <= 0:
+        else:
             assert lengths == {1}
+    assert (min(shortest) < 2 < max(shortest)) is ((motion, correction) == ("backward", "rebound"))
 
 
 # 6. Rewind. A car at a distance d from a wall, at u towards it, under an acceleration g towards it,
