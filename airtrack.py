@@ -417,10 +417,11 @@ def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None
 
 # ==== 8. What film, chart and map share in printing =============================================
 
-# Marks of film, chart and map: the terminal's numbers for red, green, amber, blue and violet.
-INKS = {"0bXx": 31, "od-": 32, "*<>eWGgLl": 33, "cPp": 34, "aSs": 35}
+# The colours of the marks of film, chart and map: a terminal's number and matplotlib's name.
+INKS = {"0Xx": (31, "red"), "od-": (32, "green"), "*<>eWGgLl": (33, "orange"),
+        "cPp": (34, "blue"), "aSs": (35, "purple"), "b": (36, "cyan")}
 COLOURED = {ord(mark): f"\033[{ink}m{mark}\033[0m"
-            for marks, ink in INKS.items() for mark in marks}
+            for marks, (ink, _) in INKS.items() for mark in marks}
 
 LETTERS = "; ".join(f"{letter}: {' + '.join(method)}" for letter, method in METHODS.items())
 
@@ -550,9 +551,10 @@ def draw(figure: Any, points: Points, pixel_m: float, heading: str) -> None:
         xscale="log", yscale="log", xlabel="largest error in ten runs (m): better to the left",
         ylabel="processor time for a simulated second (\N{MICRO SIGN}s):\nbetter upwards")
     axes.invert_yaxis()
-    for series, method, mark in zip(points.values(), METHODS.values(), "oxD+v"):
+    for (letter, series), name, mark in zip(points.items(), LETTERS.split("; "), "oxD+v"):
         errors_m = [max(error_m, 1e-16) for error_m, _ in series]  # 0 has no logarithm
-        axes.plot(errors_m, [us for _, us in series], f"{mark}-", label=" + ".join(method))
+        colour, = (colour for marks, (_, colour) in INKS.items() if letter in marks)
+        axes.plot(errors_m, [us for _, us in series], f"{mark}-", color=f"tab:{colour}", label=name)
     axes.axvline(pixel_m, color="black", linestyle="--",
                  label=f"one drawn pixel, {two_digits(pixel_m)} m")
     figure.legend(loc="outside lower center", ncols=3, title="Each line begins at "

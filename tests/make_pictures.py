@@ -21,8 +21,8 @@ COMMAND = f"python airtrack.py 21 m_to_px=36 width_px={COLUMNS}"
 FRAMES, ROWS, LINE_PX, LETTER_PX, EDGE_PX = 120, 18, 20, 10, 8
 PAPER, GREY = (24, 24, 27), (190, 190, 196)
 SHADES = {31: (248, 113, 113), 32: (74, 222, 128), 33: (250, 204, 21), 34: (96, 165, 250),
-          35: (216, 140, 255)}  # of a dark terminal: red, green, amber, blue, violet
-INK = {mark: SHADES[ink] for marks, ink in INKS.items() for mark in marks}
+          35: (216, 140, 255), 36: (34, 211, 238)}  # as a dark terminal shows these colours
+INK = {mark: SHADES[ink] for marks, (ink, _) in INKS.items() for mark in marks}
 FONT = ImageFont.truetype(findfont("DejaVu Sans Mono:bold"), 16)
 
 

@@ -62,7 +62,7 @@ def test_a_terminal_gets_a_last_line_and_if_it_wants_them_colours_that_tell_the_
     out = capsys.readouterr().out
     assert out.endswith(last)
     drawn = "".join(out.split("\n\n")[1:])
-    inks = {letter: ink for ink, letter in re.findall("\x1b\\[(3[1-5])m(.)\x1b\\[0m", drawn)}
+    inks = {letter: ink for ink, letter in re.findall("\x1b\\[(3[1-6])m(.)\x1b\\[0m", drawn)}
     kinds = "abcde" if command == "chart" else "XSGP-"
     assert len({inks[letter] for letter in kinds}) == 5
     for letter in set(inks) - set(kinds):  # small as capital; the energy's letters alike
@@ -227,10 +227,14 @@ def test_the_saved_picture_has_the_figures_and_explains_itself(
     axes, = figure.axes
     *curves, pixel = axes.lines
     for curve, (letter, method) in zip(curves, METHODS.items(), strict=True):
-        assert curve.get_label() == " + ".join(method)
+        assert curve.get_label() == f"{letter}: {' + '.join(method)}"
         assert list(curve.get_xdata()) == pytest.approx(errors_m("14", letter)[:4], rel=0.051)
         assert list(curve.get_ydata()) == [rate * len(method[0]) for rate in (1, 3, 6, 12)]
     assert len({curve.get_marker() for curve in curves}) == 5
+    film = ["35", "36", "34", "32", "33"]  # what a terminal calls them
+    assert [airtrack.COLOURED[ord(letter)][2:4] for letter in METHODS] == film
+    assert [curve.get_color() for curve in curves] == [
+        "tab:purple", "tab:cyan", "tab:blue", "tab:green", "tab:orange"]
     assert list(pixel.get_xdata()) == [1 / 55, 1 / 55]
     assert (axes.get_xscale(), axes.get_yscale()) == ("log", "log")
     assert axes.yaxis_inverted()
