@@ -28,7 +28,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import nullcontext
 from dataclasses import Field, dataclass, field, fields, replace
 from functools import cache
-from itertools import count
+from itertools import count, pairwise
 from statistics import fmean
 from typing import Any
 
@@ -728,6 +728,28 @@ def tell_of_walls(scene: Scene) -> None:
         say(f"The picture ends before a wall: m_to_px={enough:g} would show both.")
 
 def film(scene: Scene, number: int, title: str, options: dict[str, str]) -> int:
+def account(scene: Scene, until_s: float) -> str:
+    """What a film shows until then: the scene once more, in the steps that were planned."""
+    x_m, v_mps, t_s, bounces, turns_m = scene.x_m, scene.v_mps, 0.0, list[int](), list[str]()
+    for frame, (length_s, _) in enumerate(planned(scene), 1):
+        dt_s = length_s if scene.use_observed_dt else 1 / scene.fps_target
+        t_s += dt_s
+        if t_s > until_s * (1 + 1e-9):
+            break
+        was_m, was_mps = x_m, v_mps
+        x_m, v_mps, mark_m = step(scene, x_m, v_mps, dt_s)
+        if mark_m is not None:
+            bounces.append(frame)
+        elif was_mps and was_mps * v_mps <= 0:  # a turn in flight: which frame was further?
+            turns_m.append(f"{(max if was_mps > 0 else min)(was_m, x_m):.2f}")
+    apart = [str(b - a) for a, b in pairwise(bounces)]
+    for figures, last in (apart, 2), (turns_m, 1):  # the first four and the last ones are enough
+        figures[4:-last] = ["..."] * (len(figures) > 4 + last)
+    return (f"{len(bounces) or 'no'} bounce{'s' * (len(bounces) != 1)}"
+            + f", {', '.join(apart)} lines apart" * bool(apart)
+            + (f"; it turned at {', '.join(turns_m)} m" if turns_m else "; no turn in flight")
+            + " (about: the clock set the steps)" * scene.use_observed_dt)
+
     """Print what to look for, leave time to guess, run, and print what was to be seen."""
     example = EXAMPLES.get(number, OWN_SCENE)
     details = "d" in options or example.details
@@ -752,8 +774,12 @@ def film(scene: Scene, number: int, title: str, options: dict[str, str]) -> int:
         print(flush=True)
         run(view, details, max_frames, keys)
         if keys and keys.frame and not keys.status:
-            if not is_changed:
-                say(example.seen)
+            usual, shown = account(as_it_is, keys.t_s), account(scene, keys.t_s)
+            if is_changed:
+                say(f"As it is, in the same {keys.t_s:.2f} s: {usual}.")
+                say(f"Changed: {shown if shown != usual else 'no figure differs'}.")
+            else:
+                say(example.seen if number in EXAMPLES else f"Your film: {shown}. {example.seen}")
             following = number + 1 if number + 1 in EXAMPLES else "chart"
             if number in EXAMPLES and keys.where():
                 print(f"Next: {PYTHON} airtrack.py {following}", flush=True)

@@ -213,7 +213,8 @@ EXAMPLES = {
 }
 OWN_SCENE = Example("Your own scene", {},
     "How far does the car get from each wall? Does it come to rest?",
-    "To go on, change one setting at a time (-h lists them all). What does it change?")
+    "To go on, change one setting at a time; -h lists them all. If the car hops on and should come "
+    "to rest, add motion=exact correction=conserve. Films 19 and 20 say why.")
 
 
 # ==== The terminal's keys =======================================================================

@@ -13,6 +13,7 @@ import examples
 from airtrack import PYTHON, Scene, is_at_rest, main, planned
 from clock import Clock, positions_m
 from examples import EXAMPLES
+from films import details, film
 
 Capture = pytest.CaptureFixture[str]
 Play = Callable[..., str]
@@ -319,11 +320,74 @@ def test_after_the_film_it_is_told_what_was_to_be_seen(
         question = f"What differs from example {number} as it is?"
         assert example.seen not in before
         assert f". {question if is_changed else example.look_for} It begins" in before
-        assert after == ("" if is_changed else example.seen)
+        starts = "As it is, in the same " if is_changed else "Your film: " if number == 99 else ""
+        assert after.startswith(starts or example.seen)
+        assert after.endswith("" if is_changed else example.seen)
     monkeypatch.setattr("sys.stdout.isatty", lambda: True)  # of 80 columns: no change to the scene
     assert EXAMPLES[10].seen in " ".join(play("10", t4="x").split())
     assert play("10", t1="x").endswith("Stopped after 0 frames, t = 0.00 s: x was pressed.\n")
     assert ending(play("10 --frames 9 --fast")).startswith("Stopped after 9 frames")
+
+
+def plainly(words: str, until_s: float, capsys: Capture) -> str:
+    """The account of a car that hops on one wall, from the details that its film prints."""
+    example, *changes = words.split()
+    settings = EXAMPLES[int(example)].settings if int(example) in EXAMPLES else {}
+    scene = Scene(**settings | {name: float(value) for name, value in (
+        change.split("=") for change in changes)})
+    side, frames = (1 if scene.a_mps2 > 0 else -1), int(until_s * scene.fps_target + 1e-6)
+    lines = film(capsys, *words.split(), "d", "--frames", str(frames), "auto_off=False").lines
+    xs, vs = zip(*[(scene.x_m, scene.v_mps), *map(details, lines)], strict=True)
+    gained = scene.a_mps2 / scene.fps_target  # by v in a line without a bounce
+    bounces = [n for n in range(1, len(vs)) if abs(vs[n] - vs[n - 1] - gained) > 0.011]
+    told = f"{len(bounces) or 'no'} bounce{'' if len(bounces) == 1 else 's'}"
+    apart = [str(b - a) for a, b in pairwise(bounces)]
+    if apart:
+        some = [*apart[:4], "...", *apart[-2:]] if len(apart) > 6 else apart
+        told += f", {', '.join(some)} lines apart"
+    highest = [f"{max(xs[a:b]) if side < 0 else min(xs[a:b]):.2f}"
+               for a, b in pairwise([0, *bounces, len(xs)]) if side * vs[a] < 0 < side * vs[b - 1]]
+    some = [*highest[:4], "...", highest[-1]] if len(highest) > 5 else highest
+    return told + (f"; it turned at {', '.join(some)} m" if highest else "; no turn in flight")
+
+
+@pytest.mark.parametrize(("words", "frames"), [
+    ("8 CR=0.9", 200), ("8 fps_target=20", 223), ("5 CR=0.4 fps_target=10", 79),
+    ("20 CR=0.95", 140), ("10 CR=0.3", 20), ("10 x_m=1.5", 13), ("8 CR=0.99", 80)])
+def test_after_a_changed_film_its_account_stands_beside_that_of_the_example_as_it_is(
+        words: str, frames: int, play: Play, capsys: Capture) -> None:
+    out = play(f"{words} --frames {frames} auto_off=False")
+    t_s = float(re.findall("frames, t = ([0-9.]+) s", ending(out))[0])
+    usual, changed = (plainly(asked, t_s, capsys) for asked in (words.split()[0], words))
+    assert " ".join(out.split()).partition(" frame limit. ")[2] == (
+        f"As it is, in the same {t_s:.2f} s: {usual}. Changed: {changed}.")
+
+
+def test_the_account_of_one_s_own_film_stands_before_what_to_do_next(
+        play: Play, capsys: Capture) -> None:
+    def told(words: str, **keys: str) -> str:
+        out = play(words, **keys)
+        assert out.endswith(examples.OWN_SCENE.seen.split()[-1] + "\n")
+        return " ".join(out.split()).partition(" Your film: ")[2].partition(" To go on, ")[0]
+
+    ball = "99 x_m=2.25 a_mps2=-9.81 right_edge_m=3 CR=0.9"
+    assert told(ball, t15="x") == f"{plainly(ball, 12.0, capsys)}."
+    assert "34, 30, 26, 23, ..., 2, 2 lines apart" in told(ball, t15="x")
+    assert told("99 --frames 30") == "no bounces; no turn in flight."
+    assert told("99 v_mps=1 --frames 40") == "1 bounce; no turn in flight."
+    # v is 0 at the end of a frame: one turn, and not two.
+    words = "99 v_mps=1 a_mps2=-2 fps_target=4 --frames 4"
+    assert told(words) == "no bounces; it turned at 1.23 m."
+    # It ends by itself, at rest, where it bounces in every line.
+    assert told("99 x_m=0.25 a_mps2=-2 CR=0") == (
+        "10 bounces, 1, 1, 1, 1, ..., 1, 1 lines apart; no turn in flight.")
+
+
+def test_where_the_clock_sets_the_steps_the_account_says_about(play: Play) -> None:
+    out = " ".join(play("12 correction=replay").split())
+    assert out.count(" (about: the clock set the steps). ") == 1
+    assert out.endswith(" (about: the clock set the steps). Changed: no figure differs.")
+    assert "clock set" not in play("10 CR=0.5 --frames 3")
 
 
 # The picture and the terminal.
