@@ -296,8 +296,8 @@ def paced(scene: Scene, keys: Keys) -> Iterator[tuple[float, float]]:
     After a pause or a stall the length is the planned one, so that the car does not leap. The
     deadlines are absolute: a sleep of dt after each frame would add the time to compute and print.
     """
-    began_s = deadline_s = time.perf_counter() - 1 / scene.fps_target  # so the first is due at once
-    for due_s, fps in planned(scene):
+    began_s = deadline_s = time.perf_counter() - 1 / scene.fps_target  # the first is due at once,
+    for due_s, fps in planned(scene):  # but for jitter
         deadline_s += due_s
         was_paused = keys.wait_until(deadline_s)
         if keys.why_quit:
