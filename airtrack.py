@@ -18,6 +18,7 @@
 import difflib
 import math
 import os
+import re
 import shutil
 import sys
 import textwrap
@@ -149,14 +150,14 @@ class Scene:
     """The settings, which no run changes; BadInput (a ValueError) for a wrong one."""
 
     x_m: float = setting(1.1, "starting position", (-1000, 1000), "m")
-    v_mps: float = setting(0.0, "starting velocity, positive to the right", (-1000, 1000), "m/s")
-    a_mps2: float = setting(0.0, "constant acceleration", (-1000, 1000), "m/s^2")
+    v_mps: float = setting(0.0, "starting velocity: speed to the right", (-1000, 1000), "m/s")
+    a_mps2: float = setting(0.0, "acceleration: the pull, gravity g", (-1000, 1000), "m/s^2")
     left_edge_m: float = setting(0.25, "the left wall", (-1000, 1000), "m")
     right_edge_m: float = setting(2.2, "the right wall", (-1000, 1000), "m")
     CR: float = setting(0.8, "coefficient of restitution: speed after / before a bounce", (0, 1))
     motion: str = setting("backward", "how the car is moved", tuple(MOTIONS))
     correction: str = setting("rebound", "stickiness correction of a collision", EVERY_CORRECTION)
-    fps_target: float = setting(30.0, "frames a second; time step 1/fps_target", (0.1, 1000), "1/s")
+    fps_target: float = setting(30.0, "frames a second; time step dt = 1/fps", (0.1, 1000), "1/s")
     use_observed_dt: bool = setting(False, "the step is how long the frame before took")
     jitter: float = setting(0.0, "frame lengths vary by up to this fraction", (0, 0.9))
     auto_off: bool = setting(True, "stop when the car rests against a wall")
@@ -727,7 +728,6 @@ def tell_of_walls(scene: Scene) -> None:
         enough = math.floor(1000 * (scene.width_px - 1) / scene.right_edge_m) / 1000
         say(f"The picture ends before a wall: m_to_px={enough:g} would show both.")
 
-def film(scene: Scene, number: int, title: str, options: dict[str, str]) -> int:
 def account(scene: Scene, until_s: float) -> str:
     """What a film shows until then: the scene once more, in the steps that were planned."""
     x_m, v_mps, t_s, bounces, turns_m = scene.x_m, scene.v_mps, 0.0, list[int](), list[str]()
@@ -750,6 +750,7 @@ def account(scene: Scene, until_s: float) -> str:
             + (f"; it turned at {', '.join(turns_m)} m" if turns_m else "; no turn in flight")
             + " (about: the clock set the steps)" * scene.use_observed_dt)
 
+def film(scene: Scene, number: int, title: str, options: dict[str, str]) -> int:
     """Print what to look for, leave time to guess, run, and print what was to be seen."""
     example = EXAMPLES.get(number, OWN_SCENE)
     details = "d" in options or example.details
@@ -803,14 +804,21 @@ def value_of(kind: Callable[[str], object], text: str) -> object:
         return text
 
 def refusal(word: str) -> BadInput:
-    """The error for an unknown word, with the nearest name."""
+    """The error for an unknown word, and what it is nearest to."""
+    start, equals, _ = word.lower().partition("=")
+    value = "=VALUE" if equals else "=VALUE, without spaces"
     names = {name.lower(): name for name in ("--help", *COMMANDS, *OPTIONS)}
-    no_spaces = ", without spaces" * ("=" not in word)
-    names |= {name.lower(): f"{name}=VALUE{no_spaces}" for name in SETTINGS}
-    start = word.partition("=")[0].lower()
-    near = difflib.get_close_matches(start, names, n=1)
+    names |= {name.lower(): name + value for name in SETTINGS}
+    names |= {} if equals else {key: f"the key {key}, while a film runs" for key in "psx"}
+    meanings = {start: "".join(re.findall(r"^([0-9]+)[^0-9]", start))}  # 10d: 10
+    for name, row in reversed(SETTINGS.items()):  # of two with a word, the first one counts
+        meaning, allowed = row.metadata["meaning"], row.metadata["allowed"]
+        meanings |= dict.fromkeys(re.findall(r"\w+", meaning), f"{name}{value} ({meaning})")
+        names |= {part: f"{name}={part}" for part in allowed if isinstance(part, str)}
+    near = difflib.get_close_matches(start, names, cutoff=0.7)  # at 0.6 dt would be near to d
     near = near or [name for name in names if start and name.startswith(start)]
-    hint = f"nearest: {names[near[0]]}" if near else "-h lists all"
+    hint = names[near[0]] if near else meanings[start]
+    hint = f"nearest: {hint}" if hint else "-h lists all"
     return BadInput(f"unknown word {word!r}: it must be an EXAMPLE (whole number), a command, an "
                     f"option or a setting (NAME=VALUE); {hint}")
 
@@ -819,7 +827,7 @@ def parsed(words: list[str]) -> tuple[dict[str, str], dict[str, Any]]:
     given, changes = {}, {}
     rest = iter(words)
     for word in rest:
-        word = "d" if word in ("-d", "D") else word
+        word = "d" if word in ("-d", "D") else word.replace("\N{MINUS SIGN}", "-")  # of a page
         name, equals, text = word.partition("=")
         if name in ("--frames", "--save"):
             given[name] = text if equals else next(rest, "")
@@ -847,10 +855,13 @@ def obey(words: list[str]) -> int:
         if OPTIONS[option] != command:
             raise BadInput(f"{option} is for {OPTIONS[option]}, not for {command}")
     example = EXAMPLES.get(number, OWN_SCENE)
-    # Chart and map run all methods: the example's own must not refuse the changes.
-    any_method = {"correction": "none"} if command in COMMANDS else {}
-    scene = Scene(**(example.settings | any_method | changes))
+    methods = {"motion": "exact", "correction": "none"} if command in COMMANDS else {}
+    for name in methods.keys() & changes:  # chart and map set both, but a wrong word is told
+        Scene(**{"motion": "exact", name: changes[name]})
+    scene = Scene(**(example.settings | changes | methods))
     changed = "".join(f", {name}={value}" for name, value in changes.items())
+    if number not in EXAMPLES:
+        say(f"The examples are 0 to {max(EXAMPLES)}.")
     if command not in COMMANDS:
         title = f"Example {number}: {example.title}" if number in EXAMPLES else example.title
         return film(scene, number, title + changed, given)

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 import airtrack
-from airtrack import Scene, main
+from airtrack import SETTINGS, Scene, main
 from examples import EXAMPLES
 from films import COMMAND, HERE, environment, film
 
@@ -38,13 +38,30 @@ WRONG = {  # a command line that is refused: what is said of it
     "--frames 0": "--frames N must be a whole number from 1 up, not 0",
     "--frames 2.5": "--frames N must be a whole number from 1 up, not '2.5'",
     "--frames": "--frames N must be a whole number from 1 up, not ''",
+    "chart motion=exakt": "motion must be forward, backward or exact, not 'exakt'",
+    "stability 10 correction=off": "correction must be none, surface, rebound, conserve, rewind or "
+                                   "replay, not 'off'",
 }
 NEAREST = {  # a word that is none: the nearest name
     "fps_taget=10": "fps_target=VALUE", "cr=0.5": "CR=VALUE", "Chrat": "chart",
     "motion": "motion=VALUE, without spaces", "v": "v_mps=VALUE, without spaces",
-    "frames=5": "--frames", "--fast=yes": "--fast", "v=3": "v_mps=VALUE", "a=-9.81": "a_mps2=VALUE"}
+    "frames=20": "--frames", "--fast=yes": "--fast", "v=3": "v_mps=VALUE",
+    "a=-9.81": "a_mps2=VALUE", "fps=10": "fps_target=VALUE",
+    "x=1": "x_m=VALUE", "width=80": "width_px=VALUE",
+    "left=0": "left_edge_m=VALUE", "help": "--help", "stabilty": "stability", "d=1": "d",
+    "exact": "motion=exact", "surface": "correction=surface", "rebond": "correction=rebound",
+    **{key: f"the key {key.lower()}, while a film runs" for key in "spxS"},
+    "10d": "10", "10,": "10", "3.5": "3"}
+MEANT = {  # a word that people say for a setting: its name, and a part of what is told of it
+    "dt=0.1": ("fps_target", "time step dt"), "gravity=9.8": ("a_mps2", "gravity"),
+    "g=9.8": ("a_mps2", "gravity g"), "Pull=2": ("a_mps2", "the pull"),
+    "zoom=20": ("m_to_px", "zoom"), "restitution=1": ("CR", "coefficient of restitution"),
+    "speed=3": ("v_mps", "starting velocity")}
+OWN = f"The examples are 0 to {max(EXAMPLES)}. Your own scene"
 HINTS = {word: f"nearest: {name}" for word, name in NEAREST.items()}
-HINTS |= dict.fromkeys(("ten", "3.5", "=3", "", "a\nb", "9" * 5000), "-h lists all")
+HINTS |= {word: f"nearest: {name}=VALUE ({SETTINGS[name].metadata['meaning']})"
+          for word, (name, _) in MEANT.items()}
+HINTS |= dict.fromkeys(("ten", "mass=2", "=3", "", "a\nb", "9" * 5000), "-h lists all")
 
 
 @pytest.mark.parametrize(("words", "sentence"), [
@@ -58,6 +75,18 @@ def test_what_is_wrong_is_answered_in_one_sentence_and_nothing_runs(
         monkeypatch.setattr(airtrack, name, lambda *_: pytest.fail("it ran"))
     assert main(words) == 2
     assert capsys.readouterr() == ("", f"airtrack.py: error: {sentence}\n")
+
+
+@pytest.mark.parametrize(("word", "part"), [(word, part) for word, (_, part) in MEANT.items()])
+def test_a_hint_by_a_setting_s_meaning_says_why(word: str, part: str, capsys: Capture) -> None:
+    assert main(["10", word]) == 2
+    assert part in capsys.readouterr().err
+
+
+def test_a_typeset_minus_is_a_minus(capsys: Capture) -> None:
+    wanted = film(capsys, "-1", "a_mps2=-2", "d", "--frames", "3")
+    assert film(capsys, "\u22121", "a_mps2=\u22122", "d", "--frames", "3") == wanted
+    assert "pulled to the left at 2 m/s^2" in wanted.intro
 
 
 def test_words_come_in_any_order_and_of_what_is_repeated_the_last_one_holds(
@@ -82,12 +111,12 @@ def test_a_command_comes_in_any_place_too_and_is_for_example_10_unless_another_i
 
 
 @pytest.mark.parametrize("changes", [["motion=forward"], ["x_m=5"], ["correction=surface"]])
-def test_chart_and_map_do_not_mind_the_example_s_own_correction(
+def test_chart_and_map_set_motion_and_correction_themselves(
         changes: list[str], monkeypatch: pytest.MonkeyPatch) -> None:
     for command in ("chart", "stability"):
         monkeypatch.setattr(airtrack, command, lambda *_: None)
-        assert main([command, "12", *changes]) == 0
-        assert main([command, "12", *changes, "motion=forward", "correction=rewind"]) == 2
+        for more in ([], ["motion=forward", "correction=rewind"]):
+            assert main([command, "12", *changes, *more]) == 0
 
 
 def test_settings_come_on_top_of_the_example(capsys: Capture) -> None:
@@ -111,13 +140,13 @@ def test_settings_come_on_top_of_the_example(capsys: Capture) -> None:
      "left at 2 m/s^2; walls at 0.25 and 2.2 m; CR=1. Motion exact, correction rewind, 10 frames a "
      "second. a: backward + rebound; b: exact + rebound; c: exact + conserve; d: exact + rewind; "
      "e: exact + replay. The * is the car of "),
-    ("99 x_m=5 auto_off=False m_to_px=9", "Your own scene, x_m=5.0, auto_off=False, m_to_px=9.0. "
+    ("99 x_m=5 auto_off=False m_to_px=9", f"{OWN}, x_m=5.0, auto_off=False, m_to_px=9.0. "
      "The car starts at 5 m, beyond a wall, at rest, not pulled; walls "),
-    ("99", "Your own scene. The car starts at 1.1 m, at rest, not pulled: nothing moves it until "
+    ("99", f"{OWN}. The car starts at 1.1 m, at rest, not pulled: nothing moves it until "
      "v_mps or a_mps2 is given; walls at 0.25 and 2.2 m; CR=0.8. Motion backward, correction "
      "rebound, 30 frames a second. How far does the car get "),
-    ("99 v_mps=1", "Your own scene, v_mps=1.0. The car starts at 1.1 m, moving to the right at 1 "),
-    ("-3 v_mps=-3 a_mps2=1.5 motion=exact", "Your own scene, v_mps=-3.0, a_mps2=1.5, motion=exact. "
+    ("99 v_mps=1", f"{OWN}, v_mps=1.0. The car starts at 1.1 m, moving to the right at 1 "),
+    ("-3 v_mps=-3 a_mps2=1.5 motion=exact", f"{OWN}, v_mps=-3.0, a_mps2=1.5, motion=exact. "
      "The car starts at 1.1 m, moving to the left at 3 m/s, pulled to the right at 1.5 m/s^2; "
      "walls at 0.25 and 2.2 m; CR=0.8. Motion exact, correction rebound, 30 frames a second. "),
     ("1_0 x_m=1e0 width_px=0100 show_start_mark=false auto_off=FALSE", "Example 10: The exact "
