@@ -155,6 +155,7 @@ def test_a_signal_that_was_ignored_from_the_start_stays_ignored() -> None:
     with Terminal("sh", "-c", "trap '' HUP; exec \"$@\"", "sh", *quick()) as terminal:  # nohup
         terminal.until("FPS")
         terminal.press("SIGHUP")
+        terminal.until("FPS", "FPS")  # it has had its look, and goes on
         terminal.ends_at_x()
 
 
