@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Air track: a car between two walls, drawn as one line of text a frame.
+So its film is a graph: position to the right, time downwards.
 
     python airtrack.py [EXAMPLE] [d] [NAME=VALUE ...] [--fast] [--frames N]
     python airtrack.py chart [EXAMPLE] [NAME=VALUE ...] [--save FILE]
@@ -38,26 +39,28 @@ from examples import EXAMPLES, OWN_SCENE, Keys, taken_keys
 # ==== 1. Moving: where is the car dt_s later, if there are no walls? ============================
 #     x_m, v_mps   the car's position (m) and velocity (m/s), positive to the right
 #     a_mps2       its constant acceleration (m/s^2): the pull
-#     dt_s         how long a frame lasts (s), and so the time step
+#     dt_s         the time step (s): how long a frame lasts
 #
-# v changes during the frame. Euler's methods hold it constant: forward takes it from the frame's
-# start, backward (for a constant a the same as semi-implicit Euler) from its end. Both are of first
-# order: half the dt, half the error after a given time. exact has no error, for a constant a. In
-# free flight the car's energy per kilogram, E = v^2/2 - a x, should not change.
+# The pull changes v during the frame. Euler's methods ignore this: they move the car at the same
+# velocity all through the frame. forward takes the velocity of its start, backward that of its end.
+# (For a constant a, backward Euler is the same as semi-implicit Euler.) Both are of first order:
+# with half the dt, the error after a given time is half as large. exact has no error if a is
+# constant. In free flight the car's energy should not change. E = v^2/2 - a x is its energy per
+# kilogram, and each docstring says what a step does to E. (Friction would make a depend on v.)
 
 State = tuple[float, float]  # x_m, v_mps
 
 def forward(x_m: float, v_mps: float, a_mps2: float, dt_s: float) -> State:
-    """Forward Euler: x + v dt, then v + a dt. Each step changes E by +a^2 dt^2/2."""
+    """Forward Euler: x + v dt, then v + a dt. Each step adds a^2 dt^2/2 to E."""
     return x_m + v_mps * dt_s, v_mps + a_mps2 * dt_s
 
 def backward(x_m: float, v_mps: float, a_mps2: float, dt_s: float) -> State:
-    """Backward Euler: v + a dt, then x + v dt. Each step changes E by -a^2 dt^2/2."""
+    """Backward Euler: v + a dt, then x + v dt. Each step takes a^2 dt^2/2 from E."""
     v_mps += a_mps2 * dt_s
     return x_m + v_mps * dt_s, v_mps
 
 def exact(x_m: float, v_mps: float, a_mps2: float, dt_s: float) -> State:
-    """Kinematics: x + v dt + a dt^2/2, and v + a dt. E does not change."""
+    """Kinematics: x + v dt + a dt^2/2, and v + a dt. No step changes E."""
     return x_m + v_mps * dt_s + a_mps2 * dt_s * dt_s / 2, v_mps + a_mps2 * dt_s
 
 MOTIONS = {"forward": forward, "backward": backward, "exact": exact}  # name a new one here
@@ -67,65 +70,71 @@ MOTIONS = {"forward": forward, "backward": backward, "exact": exact}  # name a n
 #     wall_m       the position of a wall (m)
 #     CR           the coefficient of restitution: speed after a bounce / speed before
 #
-# Stickiness: a car whose move ends beyond a wall may stay there (see none). So a correction takes
-# that move's x and v, the wall, a and CR, and returns x and v after the bounce. The overlap is
-# x - wall. Off a wall is back towards the track; the other way is into it. The law of the hops,
-# section 7, says what none, surface, rebound and conserve do to a car that hops on a wall.
+# A collision is found when a move has ended beyond a wall. A correction takes the x and v of that
+# moment, and returns the x and v after the bounce. The overlap, x - wall, is how far beyond the
+# wall the car is (it is negative at the left wall). Why "stickiness"? Without a correction the car
+# may stick in the wall: see none. What becomes of a car that hops on a wall, section 7 tells.
 
 def none(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
-    """Reverse v, but leave the car beyond the wall: a trap.
+    """Reverse v, but leave the car beyond the wall. It may never get out.
 
-    A frame later it may still be beyond: if CR < 1 has slowed it (example 3), or if the way back is
-    shorter, by a dt^2, as by backward with the pull into the wall, or by forward with the pull off
-    it. Then v is reversed once more, now into the wall, and so on: the car is caught, often for
-    good.
+    A frame later it may still be beyond the wall. Perhaps CR < 1 has slowed it (example 3). Or the
+    way out is shorter than the way in: with backward if the pull is into the wall, with forward if
+    it is out of it. Then v is reversed again, into the wall, and so on: caught, often for good.
     """
     return x_m, -CR * v_mps
 
 def surface(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
-    """Put the car on the wall. Moved against a pull into it, unslowed, it keeps too much energy."""
+    """Put the car on the wall.
+
+    If the pull is into the wall, this lifts the car and does not slow it: too much energy is left.
+    """
     return wall_m, -CR * v_mps
 
 def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
-    """Put the car CR * overlap off the wall, where it would be by now if nothing pulled at it.
+    """Put the car in front of the wall, CR * overlap away. Without a pull it would be there by now.
 
-    Moved further against a pull into the wall, and unslowed, it keeps even more energy. With CR *
-    overlap longer than the track, it is thrown through the far wall (example 14).
+    If the pull is into the wall, this lifts the car further than surface does, and does not slow it
+    either. If CR * overlap is longer than the track, the car is thrown out (example 14).
     """
     overlap_m = x_m - wall_m
     return wall_m - CR * overlap_m, -CR * v_mps
 
 def conserve(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
-    """Put the car where rebound puts it, at the speed that its energy after the bounce gives there.
+    """Put the car where rebound does, at the speed that its energy after the bounce gives it there.
 
-    If that energy does not carry it so far, put it on the wall. Otherwise, with the exact motion,
-    only the moment of the bounce is wrong, by second order: half the dt, a quarter of the error.
+    If that energy does not carry the car so far, put it on the wall. Otherwise, with the exact
+    motion, only the moment of the bounce is wrong. This error is of second order: with half the dt
+    it is a quarter as large.
     """
     overlap_m = x_m - wall_m
-    # Back at the wall E is the same, w^2 = v^2 - 2 a overlap, and the bounce leaves CR w.
+    # Back at the wall E is the same. So the speed there has w^2 = v^2 - 2 a overlap; CR w is left.
     bounced_mps = CR * math.sqrt(max(0.0, v_mps * v_mps - 2 * a_mps2 * overlap_m))
-    # From there E stays the same: CR overlap off the wall u^2 = (CR w)^2 - 2 a CR overlap.
+    # At its new place E is the same, too. So the speed there has u^2 = (CR w)^2 - 2 a CR overlap.
     u_squared = bounced_mps * bounced_mps - 2 * a_mps2 * CR * overlap_m
     if u_squared < 0:
         return wall_m, math.copysign(bounced_mps, -overlap_m)
     return wall_m - CR * overlap_m, math.copysign(math.sqrt(u_squared), -overlap_m)
 
 def arrival(d_m: float, u_mps: float, a_mps2: float) -> tuple[float, float]:
-    """How long to a wall d_m ahead, and how fast there: t_s, w_mps. u and a are + towards it."""
-    # The speed w at the wall, from energy: w^2 = u^2 + 2 a d. (max: for round-off.)
+    """When the car reaches a wall d_m ahead, and how fast it is there: t_s, w_mps.
+
+    u_mps is its speed now. Both u_mps and a_mps2 are positive towards the wall.
+    """
+    # Energy gives the speed w at the wall: w^2 = u^2 + 2 a d. (Round-off may make it negative.)
     w_mps = math.sqrt(max(0.0, u_mps * u_mps + 2 * a_mps2 * d_m))
-    # The time t, from the mean velocity, d = (u + w)/2 t, or from w = u + a t: whichever does not
-    # subtract nearly equal numbers, since their difference is mostly round-off.
+    # The time t follows from the mean velocity, d = (u + w)/2 t, or from w = u + a t. Take the one
+    # that does not subtract two nearly equal numbers: the difference would be mostly round-off.
     return (2 * d_m / (u_mps + w_mps) if u_mps > 0 else (w_mps - u_mps) / a_mps2), w_mps
 
 def rewind(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
-    """Go back to the wall, bounce there, and go on for as long as the car was beyond.
+    """Take the car back in time to the wall, let it bounce, and move it on to the frame's end.
 
-    Right for the exact motion, in a frame that holds one bounce and whose move ends beyond the wall
-    (example 10). It cannot settle a second bounce. If the pull brings the car back before the frame
-    ends, rewind is not asked: a missed event (example 18).
+    With the exact motion this is right if the frame holds one bounce and the move ends beyond the
+    wall (example 10). Rewind cannot settle a second bounce. If the pull brings the car back before
+    the frame ends, no collision is found and rewind is not called: a missed event (example 18).
     """
-    # Run time backwards: v changes its sign, a does not, and the car arrives at the wall.
+    # Let time run backwards: v changes its sign, a does not, and the car arrives at the wall.
     side = math.copysign(1, x_m - wall_m)  # 1 beyond the right wall, -1 beyond the left one
     t_s, w_mps = arrival(abs(x_m - wall_m), side * v_mps, -side * a_mps2)
     x_m, v_mps = exact(wall_m, -side * CR * w_mps, a_mps2, t_s)
@@ -133,21 +142,22 @@ def rewind(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) ->
 
 CORRECTIONS = {"none": none, "surface": surface, "rebound": rebound, "conserve": conserve,
                "rewind": rewind}
-EVERY_CORRECTION = (*CORRECTIONS, "replay")  # which redoes the whole frame, in section 4
+EVERY_CORRECTION = (*CORRECTIONS, "replay")  # replay redoes the whole frame: see section 4
 EXACT_ONLY = ("rewind", "replay")  # they need the exact motion
+# The five methods that example 21 and the chart compare, by their letters:
 METHODS = {"a": ("backward", "rebound"), "b": ("exact", "rebound"), "c": ("exact", "conserve"),
-           "d": ("exact", "rewind"), "e": ("exact", "replay")}  # of example 21 and the chart
+           "d": ("exact", "rewind"), "e": ("exact", "replay")}
 
 
 # ==== 3. The scene: all that a run starts from ==================================================
 
 def setting(default: Any, meaning: str, allowed: Any = (False, True), unit: str = "") -> Any:
-    """A row of the table below. allowed: a number's lowest and highest value, or every choice."""
+    """A row of the table below. allowed is a number's lowest and highest value, or all choices."""
     return field(default=default, metadata={"meaning": meaning, "allowed": allowed, "unit": unit})
 
 @dataclass(frozen=True)
 class Scene:
-    """The settings, which no run changes; BadInput (a ValueError) for a wrong one."""
+    """The settings, by default with the lesson's own method. BadInput (a ValueError) if wrong."""
 
     x_m: float = setting(1.1, "starting position", (-1000, 1000), "m")
     v_mps: float = setting(0.0, "starting velocity: speed to the right", (-1000, 1000), "m/s")
@@ -172,7 +182,7 @@ class Scene:
         check(self)
 
     def to_track(self, x_m: float) -> float:
-        """x_m itself, or the wall that it is beyond."""
+        """Return x_m itself or, if x_m is beyond a wall, the position of that wall."""
         if x_m < self.left_edge_m:
             return self.left_edge_m
         return self.right_edge_m if x_m > self.right_edge_m else x_m
@@ -181,33 +191,36 @@ class Scene:
 # ==== 4. A frame ================================================================================
 
 def step(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> tuple[float, float, float | None]:
-    """One frame of dt_s: move the car, settle any collision. Returns x_m, v_mps, mark_m.
+    """One frame of dt_s: move the car, then settle any collision. Returns x_m, v_mps, mark_m.
 
-    mark_m is where the move alone ended, before the correction; None without a collision.
+    mark_m is where the move alone ended, and so shows how deep a collision was found, or None.
     """
     free_m, free_mps = MOTIONS[scene.motion](x_m, v_mps, scene.a_mps2, dt_s)
     on_track_m = scene.to_track(free_m)  # the wall, if the move ended beyond one
     is_beyond = on_track_m != free_m
-    # replay. A move that ends on the track can have been beyond a wall only if v changed its sign.
+    # Replay is asked also if v changed its sign: the car may have been beyond a wall and come back.
     if scene.correction == "replay" and (is_beyond or v_mps * free_mps < 0):
         x_m, v_mps = replay(scene, x_m, v_mps, dt_s)
-        is_bounce = is_beyond or v_mps != free_mps  # without a bounce v is exactly the move's
+        is_bounce = is_beyond or v_mps != free_mps  # without a bounce, v is exactly the move's
         return x_m, v_mps, (free_m if is_bounce else None)
     if is_beyond:
         correction = CORRECTIONS[scene.correction]
         return *correction(free_m, free_mps, on_track_m, scene.a_mps2, scene.CR), free_m
     return free_m, free_mps, None
 
-GRAZE_M = 5e-11  # far above the round-off of a position
+GRAZE_M = 5e-11  # far more than the round-off of a position
 
 def replay(scene: Scene, x_m: float, v_mps: float, t_s: float) -> State:
-    """Replace the move: follow the exact motion from the frame's start, from wall to wall.
+    """Replace the move: follow the exact motion from the frame's start, from bounce to bounce.
 
-    Right for several bounces (example 15) or infinitely many, not for grazes. Think of a ball in a
-    room: gravity pulls it to the floor (without a pull, the left wall), h is its height. The loop
-    ends: trips to the ceiling take time, and without them hops() ends it. A ball that would pass
-    the ceiling by less than GRAZE_M misses it: 1e-16 off in h can be 1e-8 off in v there. Each miss
-    shifts it by up to 4 sqrt(room GRAZE_M), 4e-5 m with the default walls, and these add up.
+    This is right for several bounces in a frame (example 15), and for infinitely many: the tests
+    compare it with a reference of 60 digits. Think of a ball in a room, with its height h above the
+    floor. The wall that the car is pulled to is the floor, the other one the ceiling. The loop
+    ends: a way to the ceiling takes time, and a ball too slow for that is left to hops().
+
+    A graze is a touch of the ceiling at almost no speed. Round-off would decide whether the ball
+    touches it. So a ball that would rise less than GRAZE_M above the ceiling counts as not touching
+    it. Each such miss shifts it, with the default walls by up to 4e-5 m, and these shifts add up.
     """
     up, floor_m = (-1, scene.right_edge_m) if scene.a_mps2 > 0 else (1, scene.left_edge_m)
     room_m, g_mps2, CR = scene.right_edge_m - scene.left_edge_m, abs(scene.a_mps2), scene.CR
@@ -230,20 +243,20 @@ def replay(scene: Scene, x_m: float, v_mps: float, t_s: float) -> State:
     return scene.to_track(floor_m + up * h_m), up * v_mps  # round-off must not leave it beyond
 
 def hops(v_mps: float, g_mps2: float, CR: float, t_s: float) -> tuple[float, float]:
-    """Take at once all whole hops that fit into t_s. Returns the time still to fly, and v.
+    """Take all whole hops that fit into t_s in one go. Returns the time still to fly, and v.
 
-    The first hop lasts T = 2 v/g, each next one CR times as long, and all of them, infinitely many,
-    T (1 + CR + CR^2 + ...) = T/(1 - CR). Then the ball is at rest: the Zeno point.
+    The first hop lasts T = 2 v/g, and each hop CR times as long as the one before. So all of them,
+    infinitely many, last T (1 + CR + CR^2 + ...) = T/(1 - CR). Then, at the Zeno point, it rests.
     """
     hop_s = 2 * v_mps / g_mps2
     zeno_s = hop_s / (1 - CR) if CR < 1 else math.inf
-    if hop_s > t_s:  # not even one
+    if hop_s > t_s:  # not even one hop fits
         return t_s, v_mps
-    if zeno_s <= t_s or t_s + hop_s == t_s:  # all fit, or one is too short to count
+    if zeno_s <= t_s or t_s + hop_s == t_s:  # all fit, or a hop is too short for round-off
         return 0.0, 0.0
     if CR == 1:
         return math.fmod(t_s, hop_s), v_mps
-    # n hops last zeno (1 - CR^n). (log1p(y) is log(1 + y), expm1(y) e^y - 1, right for a small y.)
+    # n hops last zeno (1 - CR^n). log1p(y) is log(1 + y) and expm1(y) is e^y - 1, for a small y.
     n = math.floor(math.log1p(-t_s / zeno_s) / math.log(CR))
     return t_s + zeno_s * math.expm1(n * math.log(CR)), v_mps * CR**n
 
@@ -251,14 +264,14 @@ def hops(v_mps: float, g_mps2: float, CR: float, t_s: float) -> tuple[float, flo
 # ==== 5. Drawing: one frame, one line, painted from back to front ===============================
 
 def paint(line: bytearray, mark: str, x_px: float) -> None:
-    """Paint the mark over what is in its column, if the line has that column."""
+    """Paint the mark in its column, over what is there, if the line has that column."""
     column = round(x_px)  # int would round -0.9 to 0, into the picture
     if 0 <= column < len(line):
         line[column] = ord(mark)
 
 def render_track(scene: Scene, x_m: float, mark_m: float | None = None,
                  others: Mapping[str, State] = {}) -> str:
-    """The picture: scene.width_px characters. others are the other cars, by their marks."""
+    """The line of a frame: scene.width_px characters. others are the other cars, by their marks."""
     line, zoom = bytearray(b" " * scene.width_px), scene.m_to_px
     if scene.show_collision_mark and mark_m is not None:
         paint(line, "0", mark_m * zoom)
@@ -269,7 +282,7 @@ def render_track(scene: Scene, x_m: float, mark_m: float | None = None,
     paint(line, "|", scene.left_edge_m * zoom)
     paint(line, "|", scene.right_edge_m * zoom)
     column, last = round(x_m * zoom), scene.width_px - 1
-    # < and >: outside the picture. After the walls, to be seen even there.
+    # The car comes last, so no wall hides it. Outside the picture it is < or >, at the edge.
     mark, column = ("<", 0) if column < 0 else (">", last) if column > last else ("*", column)
     paint(line, mark, column)
     return line.decode()
@@ -283,19 +296,19 @@ def details_text(x_m: float, v_mps: float, fps: float, truth: State | None) -> s
 # ==== 6. The run: the main loop =================================================================
 
 def planned(scene: Scene) -> Iterator[tuple[float, float]]:
-    """Yield how long each frame should last, and the target rate in FPS; the same in every run."""
+    """Yield how long each frame should last, and the target rate (FPS). Every run gets the same."""
     for frame in count(1):
-        fraction = 0.618 * frame % 1  # 0.618, from the golden ratio, spreads the lengths evenly
+        fraction = 0.618 * frame % 1  # from 0 to 1; the golden ratio's 0.618 spreads it evenly
         yield (1 + scene.jitter * (2 * fraction - 1)) / scene.fps_target, scene.fps_target
 
-STALL_S, STALL_FRAMES = 0.15, 1.5  # longer than both is a stall: a dragged window, say
-LATE_S = 0.02  # a delay up to this, or of a frame if longer, is made up for by the next frames
+STALL_S, STALL_FRAMES = 0.15, 1.5  # a frame longer than both is a stall, as of a dragged window
+LATE_S = 0.02  # the next frames make up for a delay of up to this, or of up to a frame
 
 def paced(scene: Scene, keys: Keys) -> Iterator[tuple[float, float]]:
-    """Wait until each frame is due. Yield how long the last one took, and the rate in FPS.
+    """Wait until each frame is due. Yield how long the last one took, and the rate (FPS).
 
-    After a pause or a stall the length is the planned one, so that the car does not leap. The
-    deadlines are absolute: a sleep of dt after each frame would add the time to compute and print.
+    After a pause or a stall the planned length counts, so that the car does not leap. The deadlines
+    are absolute. If each frame simply slept for dt, the time to compute and print would be added.
     """
     began_s = deadline_s = time.perf_counter() - 1 / scene.fps_target  # the first is due at once,
     for due_s, fps in planned(scene):  # but for jitter
@@ -304,7 +317,7 @@ def paced(scene: Scene, keys: Keys) -> Iterator[tuple[float, float]]:
         if keys.why_quit:
             return
         now_s = time.perf_counter()
-        took_s = now_s - began_s or due_s  # 0 where the clock has not ticked yet
+        took_s = now_s - began_s or due_s  # the difference is 0 if the clock has not ticked yet
         rate = fps if was_paused else 1 / took_s
         if was_paused or took_s > max(STALL_S, STALL_FRAMES * due_s):
             took_s = due_s
@@ -314,11 +327,11 @@ def paced(scene: Scene, keys: Keys) -> Iterator[tuple[float, float]]:
             deadline_s = now_s
 
 def truth_of(scene: Scene) -> Scene:
-    """The same scene, solved exactly. It has to start on the track."""
+    """The same scene, solved exactly. A start beyond a wall is moved to the wall."""
     return replace(scene, motion="exact", correction="replay", x_m=scene.to_track(scene.x_m))
 
 def scenes_beside(scene: Scene) -> dict[str, Scene]:
-    """The scenes of the other cars in its film, by their marks, from back to front."""
+    """The scenes of the film's other cars, by their marks, from back to front."""
     truth = truth_of(scene)
     methods = {letter: replace(truth, motion=motion, correction=correction)
                for letter, (motion, correction) in METHODS.items() if scene.show_methods}
@@ -327,12 +340,12 @@ def scenes_beside(scene: Scene) -> dict[str, Scene]:
 def is_at_rest(scene: Scene, v_mps: float, last_m: deque[float]) -> bool:
     """Whether the car rests against the wall that it is pulled to or, without a pull, against any.
 
-    In the last frames its mean distance from the wall is at most 1 mm, and its v at most what the
-    pull adds in that time. (A car that leans on a wall may have some v in each frame.)
+    It does if in the last frames its mean distance from the wall is at most 1 mm, and its v at most
+    what the pull adds in that time. (A car that leans on a wall may have some v in each frame.)
     """
     side = scene.a_mps2 or last_m[-1] - (scene.left_edge_m + scene.right_edge_m) / 2
     wall_m = scene.right_edge_m if side > 0 else scene.left_edge_m
-    most_m = 0.001 * len(last_m)  # for the sum of all distances, and so for the newest
+    most_m = 0.001 * len(last_m)  # If the mean is at most 1 mm, no sum or single one exceeds this.
     return (abs(last_m[-1] - wall_m) <= most_m and len(last_m) == last_m.maxlen
             and abs(v_mps) <= abs(scene.a_mps2) * len(last_m) / scene.fps_target
             and sum(abs(x_m - wall_m) for x_m in last_m) <= most_m)
@@ -346,18 +359,18 @@ def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None
     frame, t_s, why = 0, 0.0, "that is the frame limit"
     beats = paced(scene, keys) if keys else planned(scene)
     for frame, (length_s, fps) in zip(range(1, max_frames + 1), beats):  # range ends without a wait
-        # Move and settle; then the other cars, where there are any.
+        # Move the car and settle its collision; then do the same for the other cars, if any.
         dt_s = length_s if scene.use_observed_dt else 1 / scene.fps_target
         t_s += dt_s
         x_m, v_mps, mark_m = step(scene, x_m, v_mps, dt_s)
         others = others and {mark: step(beside[mark], *xv, dt_s)[:2] for mark, xv in others.items()}
-        # Draw, on a terminal in colours.
+        # Draw. Only a terminal gets colours.
         line = render_track(scene, x_m, mark_m, others)
         text = details_text(x_m, v_mps, fps, others.get("o")) if details else ""
         sys.stdout.write(f"{inked(line) if keys else line}{text}\n")
         if keys:
             keys.count(frame, t_s)
-        # At rest?
+        # Is it at rest?
         last_m.append(x_m)
         if scene.auto_off and is_at_rest(scene, v_mps, last_m):
             why = "the car is at rest against a wall"
@@ -368,14 +381,15 @@ def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None
 
 
 # ==== 7. The law of the hops ====================================================================
-# A car hops on the wall that it is pulled to. Each hop should last CR times as long as the one
-# before. Count a hop in lines of the film, from one in which a bounce is found to the next such
-# line. After a hop of many lines the next one has, on average over many starts,
-#     next = CR (hop + k) + k lines, where k is the motion's number plus the correction's:
+# A car hops on the wall that it is pulled to. Think of this wall as a floor: up is away from it.
+# Each hop should last CR times as long as the one before. Count a hop in lines of the film, from
+# one in which a bounce is found to the next such line. Then a long hop is followed, on average, by
+#     next = CR (hop + k) + k    lines, where k is the motion's number plus the correction's:
 #     forward 1    exact 0    backward -1      surface 1/2    rebound 1    conserve 0    none 0
-# (none only at CR = 1, until it catches the car). Here is the hop that example 20 ends with, and
-# repeats: exact + rebound, CR = 0.8, dt = 0.1, the pull into the wall g = 2; a column is 1 cm. From
-# line 0 to line 9 are nine frames. The 0 is where a move ended, 5 cm in the wall, at v = -1.00.
+# (The correction none has this number only at CR = 1. Rewind and replay need no number: where they
+# are right, so is each hop.) Here is a hop with exact + rebound, so k is 1. CR is 0.8, dt is 0.1 s,
+# the pull g is 2 m/s^2, and a column is 1 cm. The hop has 9 lines, and by the law the next one has
+# 0.8 (9 + 1) + 1 = 9 again. In line 9 the move ended at the 0, with v = -1.00, before the rebound.
 #     0:   0    |   *                    v =  0.80
 #     1:        |          *             v =  0.60
 #     2:        |               *        v =  0.40
@@ -386,34 +400,40 @@ def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None
 #     7:        |          *             v = -0.60
 #     8:        |   *                    v = -0.80
 #     9:   0    |   *                    v =  0.80
-# Why? Let u be a hop's first speed, off the wall (after the correction: 0.8), w its last one, into
-# the wall (before the correction: 1.0), m the motion's number (0), and drop by how much further
-# into the wall the hop ends than it begins (0.05 + 0.04 = 0.09).
-# (1) Each frame the pull adds g dt:  u + w = hop g dt                          0.8 + 1.0 = 9 * 0.2
-# (2) v^2/2 grows by g drop, from the pull, and in each frame by what the motion adds to E (section
-#     1), m g^2 dt^2/2:  (w^2 - u^2)/2 = g drop + hop m g^2 dt^2/2               0.18 = 2 * 0.09 + 0
-# (3) Twice (2), divided by (1):  w - u = 2 drop/(hop dt) + m g dt               0.2 = 0.18/0.9 + 0
-# (4) The drop, on average. A bounce is found late by a part s of a frame, on average 1/2: so a hop
-#     ends about s w dt in the wall (0.05). Where it begins, the correction decides. Let its two
-#     bounces be equally late, as they are on average.
-#     rebound: CR times the last overlap off the wall, s u dt (0.04). The drop is s (u + w) dt, by
-#         (1) s hop g dt^2, and makes 2 s g dt in (3). Its number is 2 s, on average 1.
-#     surface: on the wall. The drop is s w dt, in long hops half as much: s, on average 1/2.
-#     none, at CR = 1: in the wall, as deep as it ends. No drop: 0.
-#     conserve: take u and w at the wall. (1) still holds, as both are equally late. No drop: 0.
-# So w - u = k g dt: so much speed a hop gains, even a short one. With (1) w = (hop + k) g dt/2 and
-# u = (hop - k) g dt/2. The next u, (next - k) g dt/2, is CR w: next - k = CR (hop + k), the law.
-# Where it leads, in equal frames. At CR = 1, from most starts, hops grow by 2 k lines on average,
-# up to the other wall. If k < 0 they shrink to rest (by none: until caught); if k = 0 they last or,
-# by backward + rebound, wander. At CR < 1 a hop repeats if s, above 0 and below 1, stays the same
-# (at 1 a hair of speed ends it): then hop = k (1 + CR)/(1 - CR), with the k of that s. Long hops
-# shrink until s stays or recurs, by surface at over 1/2. If k > 0 short ones grow, or repeat. So
-# hops of 30 to 90 lines end at CR = 0.9, from 98 of 100 starts, at one length or several, mixed:
+# Why? Let u be the speed upwards with which the hop begins (0.8), and w the speed downwards with
+# which it ends, before the correction (1.0). In each frame the pull adds g dt (0.2) downwards. So
+#     (1)  u + w = hop g dt      0.8 + 1.0 = 9 * 0.2
+# How much larger is w than u? A bounce is found late, by a part of a frame. Call this part the lag:
+# on average it is 1/2. During the lag the car falls below the floor and gains lag g dt. So at the
+# floor its speed was w - lag g dt (0.9). With the exact motion it left the floor at the same speed.
+#     rebound:   The hop before ended about lag w dt deep. The rebound puts the car CR times as
+#                high, and makes u CR times that w. So this hop begins about lag u dt high (0.04).
+#                To have u there, a car must leave the floor with u + lag g dt (0.9). So w - u is
+#                2 lag g dt, on average g dt.
+#     surface:   The hop begins on the floor, with u. So w - u is lag g dt, on average g dt/2.
+#     none:      If CR = 1, the hop begins as deep as the one before it ended. So w - u is 0.
+#     conserve:  It keeps E on its way to the floor and off it. So let u and w here be the speeds
+#                at the floor. Then w - u is 0, and (1) holds on average: the frames that lie
+#                between are not quite a whole number.
+# An Euler motion also changes v^2/2, in each frame by m g^2 dt^2/2. (Section 1; m is its number.)
+# In the whole hop (w^2 - u^2)/2 grows by hop m g^2 dt^2/2, and so, by (1), w - u by m g dt. In all,
+#     (2)  w - u = k g dt        1.0 - 0.8 = 1 * 0.2
+# So w is (hop + k) g dt/2 and u is (hop - k) g dt/2. The next u is CR w, and (next - k) g dt/2 too:
+# next - k = CR (hop + k). This is the law. With equal frames, from most starts, it leads to this:
+#     CR = 1: On average each hop is 2 k lines longer than the one before. If k > 0, hops grow until
+#         the car meets the other wall. If k < 0, they shrink until the car rests (with the
+#         correction none, until it is caught). If k = 0, they keep their length, or wander.
+#     CR < 1, k > 0: A hop of n = k (1 + CR)/(1 - CR) lines should repeat. Longer hops shrink to
+#         about n. Shorter ones grow, or repeat as they are. For if all bounces have one lag other
+#         than 1/2, k is another (with surface the lag, with rebound twice the lag), and so is n.
+#     CR < 1, k <= 0: The car comes to rest. Only with backward + rebound it may hop on: its k is
+#         2 lag - 1, at most 1, so its hops have fewer than (1 + CR)/(1 - CR) lines.
+# Counted at CR = 0.9: how long hops of 30 to 90 lines are in the end, without the rarest 2 of 100
+# starts. (Rest: a bounce in every line, at most some mm off the wall. With surface: above n.)
 #                   + surface     + rebound            + conserve
 #     forward       29 to 37      33 to 48             18 and 19 lines
 #     exact         10 to 18      14 to 30             rest
 #     backward      rest          rest or up to 16     rest
-# Rest: a bounce in every line; v need not be 0. By forward, short hops grow, to 18 lines at least.
 
 
 # ==== 8. What film, chart and map share in printing =============================================
@@ -423,7 +443,6 @@ INKS = {"0Xx": (31, "red"), "od-": (32, "green"), "*<>eWGgLl": (33, "orange"),
         "cPp": (34, "blue"), "aSs": (35, "purple"), "b": (36, "cyan")}
 COLOURED = {ord(mark): f"\033[{ink}m{mark}\033[0m"
             for marks, (ink, _) in INKS.items() for mark in marks}
-
 LETTERS = "; ".join(f"{letter}: {' + '.join(method)}" for letter, method in METHODS.items())
 
 def inked(line: str) -> str:
@@ -448,11 +467,11 @@ Points = dict[str, list[tuple[float, float]]]  # letter: (error_m, cost_us) at e
 cached_step = cache(step)  # all methods need the truth at the same moments
 
 def simulate(scene: Scene, fps: int, cut: int) -> Iterator[tuple[float, ...]]:
-    """Run for SPAN_S; every 0.1 s, or frame if longer, yield x_m, v_mps and the true two.
+    """Run for SPAN_S. Every 0.1 s, or frame if longer, yield x_m, v_mps and the true two.
 
-    Where in a frame the car meets a wall is luck. So cut 0 begins at the scene's start, and cut k,
-    1 to 9, (k - 2/3)/9 of a frame later, at the true state of that moment. The truth takes one
-    step: no error adds up.
+    At which moment of a frame the car meets a wall is luck. So cut 0 begins at the scene's start,
+    cuts 1 to 9 (cut - 2/3)/9 of a frame later, at the true state of that moment. At cut/9 the last
+    one would meet walls as cut 0 does. The truth takes a single step, so no error adds up.
     """
     truth = truth_of(scene)
     shift_s = (cut - 2 / 3) / (CUTS - 1) / fps if cut else 0.0
@@ -473,7 +492,7 @@ def cost_us(scene: Scene, fps: int) -> float:
     return max(1e6 * min(costs_s) / SPAN_S, 0.01)  # a coarse clock may have measured 0
 
 def two_digits(number: float) -> str:
-    """The number without an exponent; more digits would be noise."""
+    """The number with two digits, as more would be noise, and without an exponent."""
     return f"{float(f'{number:.1e}'):g}"
 
 def table(scene: Scene) -> Points:
@@ -492,23 +511,22 @@ def table(scene: Scene) -> Points:
             points[letter].append((error_m, us))
             row += f"{error_m:9.1e}{two_digits(us):>6}"
         print(row, flush=True)
-    print(f"From {CHART_FPS[-4]} FPS on, twice the rate divides the error by (2: first order, 4: "
-          "second)")
+    print(f"From {CHART_FPS[-4]} FPS on twice the rate divides errors by (first order 2, second 4)")
     orders = (f"{(series[-4][0] / series[-1][0])**(1 / 3):.1f}" if series[-1][0] > 1e-9 else "-"
               for series in points.values())  # three doublings apart; the rest is round-off
     print("    " + "".join(f"{order:>9}{'':6}" for order in orders) + "\n")
     return points
 
 def error_px(error_m: float) -> int:
-    """An error's column: eight a power of ten, from 1e-6 to 10 m. Others are drawn at the edge."""
+    """An error's column, eight for each power of ten from 1e-6 to 10 m; others are at the edge."""
     return round(8 * math.log10(min(max(error_m, 1e-6), 10) / 1e-6))
 
 def picture(points: Points, pixel_m: float) -> None:
-    """Print the points: error to the right, processor time down, four rows to a power of ten."""
+    """Print the points: error to the right, processor time down, four rows for a power of ten."""
     marks = [(round(4 * math.log10(us)), error_px(error_m), letter)
              for letter, series in points.items() for error_m, us in series]
     limit_px = error_px(pixel_m)
-    say("To the right: largest error of ten runs, every 0.1 s. Down: processor time for a "
+    say("To the right: the largest error of ten runs, every 0.1 s. Down: processor time for a "
         "simulated second, in us (microseconds). The best are in the upper left.")
     say(f"{LETTERS}; +: several of them.")
     print(f"\n{'one drawn pixel |':>{limit_px + 11}}")
@@ -522,7 +540,7 @@ def picture(points: Points, pixel_m: float) -> None:
         print(f"{two_digits(10 ** (row / 4)):>6}    {inked(line.decode().rstrip())}")
 
 def conclude(points: Points, pixel_m: float) -> None:
-    """Say from which rate on each series stays within a pixel, and at what cost: the answer."""
+    """Give the answer: from which rate on each series stays within a pixel, and at what cost."""
     told = []
     for letter, series in points.items():
         found = math.inf, f"{letter} at none of these rates"
@@ -562,7 +580,7 @@ def draw(figure: Any, points: Points, pixel_m: float, heading: str) -> None:
                   f"{CHART_FPS[0]} FPS, at the top, and ends at {CHART_FPS[-1]} FPS")
 
 def chart(scene: Scene, heading: str, file: str | None) -> None:
-    """Print table and picture; with a file, save it too. Raises BadInput where it cannot."""
+    """Print table and picture. If a file is given, save the picture, or raise BadInput."""
     pixel_m = 1 / scene.m_to_px
     figure: Any = None if file is None else new_figure(file)  # fails before the measuring
     say(f"Speed against accuracy. {heading} {MEASURED} Which method costs least and stays within "
@@ -586,13 +604,13 @@ VERDICTS = {  # from the worst to the best
     "X": "out: further beyond a wall than the track is long",
     "S": "stuck: beyond the same wall all through the last 5 s",
     "W": "win or lose: some runs gain energy, others lose it; always a capital",
-    "G": "gain: in the last 5 s over 1 % more energy than the true car, on average",
-    "L": "loss: over 1 % less (1 % of v^2/2 at the start + |a| * the track's length)",
+    "G": "gain: too much energy, by over 1 % of v^2/2 at the start + |a| * track length",
+    "L": "loss: too little energy, by as much; both on average over the last 5 s",
     "P": "energy within 1 %, but over a drawn pixel off; at CR < 1 it may still hop",
     "-": "within a drawn pixel of the truth at every sample"}
 
 def verdict(scene: Scene, fps: int, cut: int) -> str:
-    """The letter of one run: the first of X, S, -, G, L and P that fits. W takes several runs."""
+    """The letter of one run: the first of X, S, -, G, L and P that fits. (W needs several runs.)"""
     states = list(simulate(scene, fps, cut))
     late = len(states) * 3 // 4  # where the last 5 of 20 s begin
     beyond_m = [x_m - scene.to_track(x_m) for x_m, *_ in states]
@@ -609,7 +627,7 @@ def verdict(scene: Scene, fps: int, cut: int) -> str:
     return "G" if gain > one_percent else "L" if gain < -one_percent else "P"
 
 def cell(found: set[str]) -> str:
-    """One letter for ten runs: the worst, or its small letter where not all are so bad."""
+    """One letter for ten runs: the worst, as a small letter if only some runs are so bad."""
     worst = min(found, key=list(VERDICTS).index)
     if worst == "G" and "L" in found:
         return "W"
@@ -646,7 +664,7 @@ def stability(scene: Scene, whose: str, heading: str) -> None:
 # ==== 11. Checking a scene ======================================================================
 
 class BadInput(ValueError):
-    """One sentence on what a user asked for and cannot have."""
+    """One sentence: what a user asked for and cannot have, and what is allowed."""
 
 NUMBERS = {int: "a whole number", float: "a number"}  # settings of other types are choices
 
@@ -658,7 +676,7 @@ def allowed_text(row: Field[Any]) -> str:
     return " or ".join(", ".join(map(str, allowed)).rsplit(", ", 1))
 
 def check(scene: Scene) -> None:
-    """Raise BadInput, naming setting, range and value, for a scene that is not allowed."""
+    """Raise BadInput for a scene that is not allowed. It names setting, range and value."""
     for row in fields(scene):
         value, allowed, kind = getattr(scene, row.name), row.metadata["allowed"], type(row.default)
         is_good = (isinstance(value, (int, kind)) and allowed[0] <= value <= allowed[1]
@@ -701,14 +719,14 @@ def in_words(scene: Scene) -> str:
             f"{scene.left_edge_m:g} and {scene.right_edge_m:g} m; CR={scene.CR:g}.")
 
 def film_in_words(scene: Scene) -> str:
-    """How it starts, motion, correction, frame rate and, where set, jitter and observed dt."""
+    """How the car starts, and then all that the user may set of its motion and its frames."""
     irregular = f", irregular by up to {100 * scene.jitter:g} %" if scene.jitter else ""
     observed = ", each step as long as the frame before" * scene.use_observed_dt
     return (f"{in_words(scene)} Motion {scene.motion}, correction {scene.correction}, "
             f"{scene.fps_target:g} frames a second{irregular}{observed}.")
 
 def fitted(scene: Scene, details: bool) -> Scene:
-    """The scene with picture and zoom shrunk together until line and details fit the terminal."""
+    """The scene, its picture and zoom made smaller until line and details fit the terminal."""
     truth = (0.0, 0.0) if scene.show_exact_mark else None
     widest = details_text(-9999.99, -9999.99, scene.fps_target, truth) if details else ""
     columns = shutil.get_terminal_size().columns - len(widest)
@@ -721,7 +739,7 @@ def fitted(scene: Scene, details: bool) -> Scene:
     return replace(scene, width_px=columns, m_to_px=m_to_px)
 
 def tell_of_walls(scene: Scene) -> None:
-    """Say that a wall is outside the picture, and what would show both."""
+    """If a wall is outside the picture, say so, and what would show both walls."""
     if round(scene.left_edge_m * scene.m_to_px) < 0:
         say("The picture begins at x = 0: shift x_m and the walls.")
     elif round(scene.right_edge_m * scene.m_to_px) >= scene.width_px:
@@ -729,7 +747,7 @@ def tell_of_walls(scene: Scene) -> None:
         say(f"The picture ends before a wall: m_to_px={enough:g} would show both.")
 
 def account(scene: Scene, until_s: float) -> str:
-    """What a film shows until then: the scene once more, in the steps that were planned."""
+    """What a film shows until then. It runs the scene again, with the steps that were planned."""
     x_m, v_mps, t_s, bounces, turns_m = scene.x_m, scene.v_mps, 0.0, list[int](), list[str]()
     for frame, (length_s, _) in enumerate(planned(scene), 1):
         dt_s = length_s if scene.use_observed_dt else 1 / scene.fps_target
@@ -804,7 +822,7 @@ def value_of(kind: Callable[[str], object], text: str) -> object:
         return text
 
 def refusal(word: str) -> BadInput:
-    """The error for an unknown word, and what it is nearest to."""
+    """The error for an unknown word. It names what is nearest: a name, a choice, a meaning."""
     start, equals, _ = word.lower().partition("=")
     value = "=VALUE" if equals else "=VALUE, without spaces"
     names = {name.lower(): name for name in ("--help", *COMMANDS, *OPTIONS)}
@@ -823,7 +841,7 @@ def refusal(word: str) -> BadInput:
                     f"option or a setting (NAME=VALUE); {hint}")
 
 def parsed(words: list[str]) -> tuple[dict[str, str], dict[str, Any]]:
-    """What the words give: EXAMPLE, command and options; and the settings that they change."""
+    """Take the words apart: into EXAMPLE, command and options, and into changes of settings."""
     given, changes = {}, {}
     rest = iter(words)
     for word in rest:

@@ -47,169 +47,199 @@ EXAMPLES = {
         "show_collision_mark": False},
         "An air track: * is the car, | are the walls, and each line is one moment. Where will the "
         "car be after 45 s? Then end the film with x.",
-        "From frame 2930 on (t = 44 s) it lies at the left wall, to which it is pulled. It lost 20 "
-        "% of its speed in each of 26 bounces. Now each frame pulls it in and puts it back.",
+        "At the left wall, to which it is pulled. It comes to lie there in frame 2930 (t = 44 s), "
+        "after 26 bounces. Each of them took 20 % of its speed. From then on each frame pulls it "
+        "into the wall and puts it back.",
         details=True),
     1: Example("A first look", {
         "x_m": 2.0, "a_mps2": -1.5, "CR": 0.7, "show_collision_mark": False},
-        "Watch the bottom row (cover those above with paper): there the car (*) moves between its "
-        "walls (|). At each bounce, guess what part of the way it will go back.",
-        "About half of it each time: it starts 1.75 m from the wall, and gets back to 0.87 m, 0.46 "
-        "m, 0.21 m. It keeps 70 % of its speed in a bounce, so 0.7^2 = 0.49 of its energy. When it "
-        "has been at rest for a third of a second, in frame 251, the film stops by itself. (The "
-        "word d after an example's number, as in 1 d, adds figures to each line.)"),
+        "Watch the bottom row only, and cover the rows above with paper. There the car (*) moves "
+        "between its walls (|). At each bounce, guess: what part of the way will it go back?",
+        "About half. It starts 1.75 m from the left wall, and gets back to 0.87 m, 0.46 m and 0.21 "
+        "m. In a bounce it keeps 70 % of its speed, so 0.7^2 = 0.49 of its energy, and the energy "
+        "decides how far it gets. When it has been at rest for a third of a second, in frame 251, "
+        "the film stops by itself. If you type d after the number, as in 1 d, each line shows "
+        "figures."),
     2: Example("No correction", {
         "x_m": 1.65, "v_mps": 2.7, "CR": 1.0, "correction": "none", "show_collision_mark": False},
-        "Nothing puts the car back on the track after a collision. How far does it go into the "
-        "walls, and does it come out again? End the film with x.",
-        "It goes into the walls by up to 8 cm, nearly as far as it moves in a frame, 9 cm. It is "
-        "elastic (CR=1) and nothing pulls at it, so it comes back out as fast as it went in."),
+        "Nothing puts the car back on the track after a collision. Only its velocity is reversed. "
+        "How far does it go into the walls, and does it come out again? End the film with x.",
+        "It goes up to 8 cm into the walls, and it comes out again each time. A frame moves it by "
+        "9 cm, so a move may end nearly as far beyond the wall. There its velocity is reversed. It "
+        "keeps all its speed (CR=1) and nothing pulls at it. So the next move is as long as the "
+        "one before, and brings it out."),
     3: Example("No correction, losing speed", {
         "x_m": 2.0, "a_mps2": -1.5, "CR": 0.6, "correction": "none", "auto_off": False,
         "show_collision_mark": False},
-        "Now the car loses speed in a bounce, and it is pulled to the left. Does it come back from "
-        "the left wall? Give it ten seconds, then press x.",
-        "In frame 46 (t = 1.53 s) it is beyond the left wall, and its velocity is reversed. But "
-        "with 60 % of its speed it is not out again a frame later. So it is reversed once more, "
-        "now into the wall, and so on: it is caught. From then on the pull makes it sink, at last "
-        "by 1 mm a frame. (With d, v is then 0.02 though x falls: it is shown after the reversal.) "
-        "After nine or ten seconds it is out of the picture: <"),
+        "Now the car loses speed in each bounce, and it is pulled to the left. Does it come back "
+        "from the left wall? Watch for ten seconds, then press x.",
+        "No. In frame 46 (t = 1.53 s) the car is beyond the left wall, so its velocity is "
+        "reversed. But it has kept only 60 % of its speed, and a frame later it is still beyond "
+        "the wall. So its velocity is reversed again, now into the wall, and so on. The car is "
+        "caught. From then on the pull makes it sink, in the end by 1 mm a frame. After nine or "
+        "ten seconds it is out of the picture, and a < stands at the edge."),
     4: Example("A high frame rate", {
         "x_m": 0.2, "v_mps": 10.0, "a_mps2": -10.0, "CR": 0.8, "fps_target": 300.0,
         "show_collision_mark": False},
-        "Each line is a 300th of a second. Wait for its end. Then scroll back, as far as your "
-        "terminal keeps the lines: what does the motion look like?",
-        "Each hop is an arc, a parabola (the right wall cuts the first one off). They are hundreds "
-        "of lines long at first, the last ones draw a tail, and the film stops after 1880 frames. "
-        "As the car starts beyond the wall, frames 1 and 2 both reverse it: it leaves at 6.4 m/s."),
+        "Each line is a 300th of a second. Wait until the film ends. Then scroll back, as far as "
+        "your terminal keeps the lines. What does the motion look like?",
+        "Like a row of arcs, each of them a parabola. For a film is a graph: position to the "
+        "right, time downwards. A constant pull draws parabolas there, as in a textbook, only "
+        "turned on their side. The right wall cuts the first arc off. The first arcs are hundreds "
+        "of lines long, and the last ones draw a tail. The film stops after 1880 frames."),
     5: Example("Where each collision was found", {
         "x_m": 2.0, "v_mps": 3.0, "a_mps2": 2.0, "CR": 0.7},
-        "A 0 is where the move alone put the car, beyond the wall. Where is the * in the same "
+        "A 0 shows where the move alone put the car, beyond the wall. Where is the * in the same "
         "line? Does every collision show a 0?",
-        "The rebound has put the * back on the track, 70 % as far off the wall as it was beyond "
-        "it: often in the wall's column. The wall hides the 0 of many of the 19 collisions (with d "
-        "v tells them: it does not rise by 0.06 or 0.07). At fps_target=10, a film to end with x, "
-        "at least the first five show theirs."),
+        "The rebound has put the * back on the track, 70 % as far from the wall as the 0 is on the "
+        "other side. Often that is so near that the * stands in the wall's column. Many of the 19 "
+        "collisions show no 0. It falls into the wall's column, too, and the wall hides it. With "
+        "fps_target=10, a film to end with x, at least the first five show their 0."),
     6: Example("Example 5 zoomed out", {
         "x_m": 2.0, "v_mps": 3.0, "a_mps2": 2.0, "CR": 0.7, "m_to_px": 30.0},
-        "The drawing is smaller than in example 5. Does the motion change? Compare after how many "
-        "frames the film stops.",
-        "Only the drawing changes: it is about half as wide (30/55). With d the figures are those "
-        "of example 5, and the film stops after 236 frames again."),
+        "The drawing is smaller than in example 5. Does the motion change, too? Compare after how "
+        "many frames the film stops.",
+        "No, only the drawing changes: it is about half as wide (30/55). The film stops after 236 "
+        "frames, as example 5 does. With d, each line has the figures of example 5."),
     7: Example("Elastic, small steps", ELASTIC | {"fps_target": 240.0},
         "No speed is lost in a bounce. So the car should come back to the start mark, the dot at 2 "
         "m, every time. Does it? End the film with x.",
-        "Nearly: it turns 1.1 cm short of the mark, first in frame 633 (t = 2.64 s), the next time "
-        "at the mark, and so on, alternately. That is less than a column, but d tells."),
+        "Nearly. It turns 1.1 cm short of the mark, first in frame 633 (t = 2.64 s). The next time "
+        "it turns at the mark, then short of it again, and so on. The 1.1 cm are less than a "
+        "column, so only d shows them. In example 8 the same happens with larger steps, and there "
+        "one sees it."),
     8: Example("Elastic, large steps", COARSE,
-        "Example 7 at 10 FPS: the car moves up to 0.26 m in a frame. How near to the start mark "
-        "does it come back? Watch four times, then press x.",
-        "It comes back to 1.88 m, 12 cm short of the mark, then to the mark, and so on, "
-        "alternately. Backward Euler takes 1 cm off the way in each frame, 26 cm in a fall and the "
-        "rise after it. The rebound puts the car as far off the wall as it was beyond it, and does "
-        "not slow it: so it gives back twice that distance. The first bounce gives back 2 * 7 = 14 "
-        "cm, 12 too few. The next one gives back 2 * 19 = 38 cm, 12 too many."),
+        "Now example 7 at only 10 FPS. How near to the start mark does the car come back? Watch it "
+        "come back four times, then press x.",
+        "It comes back to 1.88 m, 12 cm short of the mark. The next time it reaches the mark, then "
+        "again only 1.88 m, and so on. To see why, think of the left wall as a floor. In each "
+        "frame backward Euler takes away 1 cm of height, so 26 cm in a fall and the rise after it. "
+        "The rebound gives height back: it puts the car as far above the floor as it was below, "
+        "and does not slow it. First the car was 7 cm below: 2 * 7 = 14 cm, 12 too few. The next "
+        "time it was 19 cm below: 2 * 19 = 38 cm, 12 too many."),
     9: Example("Elastic, large and irregular steps", COARSE | IRREGULAR,
         "Example 8 with irregular frames: each is up to a quarter longer or shorter. How near to "
-        "the start mark does it come back? Press x after 30 s.",
-        "The errors of the bounces are irregular too. So the car turns elsewhere each time: first "
-        "at 1.81 m, and after about half a minute beyond the start mark as well. It wanders."),
+        "the start mark does the car come back? Press x after 30 s.",
+        "It comes back elsewhere each time: it wanders. First it turns at 1.81 m, and after about "
+        "half a minute even beyond the start mark. The rebound gives back more height if the car "
+        "is found deeper in the wall. In irregular frames this depth is irregular, too."),
     10: Example("The exact solution", EXACT,
         "Only 10 FPS, but exact formulas. How near to the start mark does the car come back? Begin "
         "with s, press it fourteen times to see the first bounce, then p.",
-        "The car moves by the formulas of kinematics, and each bounce is worked out at its own "
-        "moment. (The 0 in frame 14 is where the move alone had put it.) So it comes back to the "
-        "start mark, the dot at 2 m, every time. In example 8 it does not."),
+        "It comes back to the start mark, the dot at 2 m, every time. The car moves by the "
+        "formulas of kinematics. The correction, rewind, works out at what moment of the frame the "
+        "car met the wall, and lets it bounce at that moment. The 0 in frame 14 shows where the "
+        "move alone had put the car. In example 8, at the same 10 FPS, it does not come back."),
     11: Example("The exact solution, irregular steps", EXACT | IRREGULAR,
         "Example 10 with irregular frames. How near to the start mark does the car come back? End "
         "the film with x.",
-        "At the start mark, all the same. The exact solution does not depend on how the time is "
-        "cut into frames, as long as no frame holds two bounces (example 12) or misses one (18)."),
+        "To the mark itself, every time, as in example 10. For the exact solution it does not "
+        "matter how the time is cut into frames. There are two exceptions: a frame that holds two "
+        "bounces, as in example 12, and a frame that misses a bounce, as in example 18."),
     12: Example("The exact solution, losing energy", EXACT | IRREGULAR | {"CR": 0.8},
-        "Example 11, but the car keeps 80 % of its speed at each bounce, and the bounces come "
-        "faster and faster. Is there a last one? When does the car rest?",
-        "No bounce is the last: infinitely many are over by t = 11.91 s, the Zeno point. But "
-        "rewind can settle only one a frame. So the car hops on, too low to see, until the film "
-        "calls it at rest, in frame 130. (12 d shows 20 bounces: lines in which v rises.) Yet "
-        "rewind is all that this scene needs: it is up to 4 mm off here, less than a quarter of a "
-        "column. With correction=replay it is at rest in frame 122."),
+        "Example 11, but the car keeps only 80 % of its speed in a bounce. The bounces come faster "
+        "and faster. Is there a last one? When does the car rest?",
+        "There is no last bounce. In truth the car bounces infinitely often before t = 11.91 s, "
+        "the Zeno point, and then it rests. But rewind can settle only one bounce a frame. So its "
+        "car hops on, too low to see, until the film calls it at rest in frame 130. Replay settles "
+        "them all: with correction=replay the car is at rest in frame 122. Still, rewind is good "
+        "enough for this scene. It is never more than 4 mm off, less than a quarter of a column."),
     13: Example("Forward Euler beside the truth", {
         "x_m": 0.25, "v_mps": 2.48, "a_mps2": -2.0, "CR": 1.0, "motion": "forward",
         "fps_target": 10.0, "show_exact_mark": True},
-        "The * is moved by forward Euler, the o is the true car. Which gets further to the right, "
-        "before either meets a wall? See both turn, then press x.",
-        "The * turned at 1.91 m, in frame 13, the o at 1.79 m, and neither had met a wall. Forward "
-        "Euler moves the car at the velocity of the frame's start: too fast on the way out, too "
-        "slow on the way back. Each step adds a^2 dt^2/2 = 0.02 m^2/s^2 to v^2/2 - a x, the energy "
-        "per kilogram. With motion=exact the * stays with the o until the wall, in frame 25."),
+        "The * is moved by forward Euler, and the o is the true car. Which gets further to the "
+        "right before it turns? Watch both turn, then press x.",
+        "The * does. It turned at 1.91 m, in frame 13, and the o at 1.79 m. Forward Euler moves "
+        "the car through a whole frame at the velocity that it had when the frame began. That is "
+        "too fast on the way out and too slow on the way back. So in each frame the * gets 1 cm "
+        "further to the right of the o. Its energy grows, too: each frame adds a^2 dt^2/2 = 0.02 "
+        "m^2/s^2 to v^2/2 + 2 x, the energy per kilogram. With motion=exact the * stays on the o "
+        "until it meets the wall, in frame 25."),
     14: Example("Four metres a frame", QUICK,
-        "The car moves 4 m a frame, on a track of 1.95 m. Does it stay between the walls? (< and "
-        ">: out of the picture.) End the film with x.",
-        "The rebound puts it as far off the wall as it was beyond it. That is beyond the far wall: "
-        "out to the left (<), then out to the right (>), and so on, 4.1 m further every other "
-        "frame. It bounces off walls that it has left behind. In a minute it is 1.2 km away."),
+        "The car moves 4 m in a frame, but the track is only 1.95 m long. Does the car stay "
+        "between the walls? (< and > mean: out of the picture.) End the film with x.",
+        "No. The rebound puts the car as far in front of the wall as it was beyond it. Here that "
+        "is further than the track is long. So the car lands beyond the other wall: out to the "
+        "left (<), then out to the right (>), and so on, 4.1 m further out every other frame. It "
+        "bounces off walls that it has left behind. In a minute it is 1.2 km away."),
     15: Example("Four metres a frame, wall by wall", QUICK | {
         "motion": "exact", "correction": "replay"},
-        "Example 14 by the exact solution, which settles every bounce. The car still moves 4 m a "
-        "frame. What will it look like? End the film with x.",
-        "In a frame of 4 m the car goes from wall to wall and back, 3.9 m, and ends 0.1 m from "
-        "where it was. So it seems to creep along the track, as wagon wheels in a film seem to "
-        "turn slowly: the stroboscopic effect."),
+        "Example 14 with the exact solution, which settles every bounce. The car still moves 4 m "
+        "in a frame. What will its motion look like? End the film with x.",
+        "The car seems to creep along the track. In a frame of 4 m it goes to the walls and back, "
+        "3.9 m, and ends 0.1 m from where it was. In the same way the wheels of a wagon seem to "
+        "turn slowly in a film. This is the stroboscopic effect."),
     16: Example("Example 8 beside the truth", COARSE | {"show_exact_mark": True},
-        "The o is the true car. When does the * leave it, and how far apart do they get? (d shows "
-        "the error.) Press x after 20 s.",
-        "At once: they are 1 cm apart in frame 1, 2 cm in frame 2, and up to 0.9 m within 20 s. In "
-        "flight, backward Euler moves the * at the velocity of the frame's end; and the rebound "
-        "does not know when in the frame the bounce was."),
+        "The o is the true car, and the * is the car of example 8. When does the * leave the o, "
+        "and how far do they get apart? Press x after 20 s.",
+        "At once: they are 1 cm apart in frame 1, 2 cm in frame 2, and up to 0.9 m within 20 s. "
+        "There are two reasons. In flight, backward Euler moves the * through a whole frame at the "
+        "velocity that it has when the frame ends. In a bounce, the rebound does not know at what "
+        "moment of the frame the car met the wall."),
     17: Example("Exact motion with the rebound", COARSE | {
         "motion": "exact", "show_exact_mark": True},
         "Now the motion is exact, but the correction is the rebound. When does the * leave the o? "
         "Does it gain energy or lose some? Press x after 20 s.",
-        "The * stays on the o until the first bounce, in frame 14, and then leaves it: by up to "
-        "1.8 m within 20 s. What fails is the rebound. It lifts the car off the wall without "
-        "slowing it. So the car gains energy at each bounce off the left wall, to which it is "
-        "pulled, and gives some back at the right one. With correction=conserve it comes back to "
-        "the start mark each time, within 6 cm of the o for 20 s; with rewind it stays on the o."),
+        "The * stays on the o until the first bounce, in frame 14. After that it is wrong, by up "
+        "to 1.8 m within 20 s. The motion is exact, so the error comes from the rebound. The car "
+        "is pulled to the left wall. There the rebound lifts it against the pull and does not slow "
+        "it, so the car gains energy. At the right wall it is the other way round, and the car "
+        "gives some back. With correction=conserve it comes back to the start mark each time, and "
+        "for 20 s it stays within 10 cm of the o. With correction=rewind it stays on the o."),
     18: Example("The exact solution at 4 FPS", {
         "x_m": 0.65, "v_mps": 5.0, "a_mps2": -8.0, "CR": 1.0, "motion": "exact",
         "correction": "rewind", "fps_target": 4.0, "show_exact_mark": True},
         "Begin with s, press it four times, and watch the right wall. What does the o do there, "
         "and what does the *? End the film with x.",
-        "In frame 3 the o has bounced off the right wall, the * turned without a bounce. In frame "
-        "4 they are about 0.4 m apart. The move of frame 3 goes 1 cm beyond the wall and ends back "
-        "on the track, so no collision is found: a missed event. Any method that looks only at the "
-        "two ends of a step may miss one. With correction=replay the * stays on the o."),
+        "By frame 3 the o has bounced off the right wall. The * has turned without a bounce, and "
+        "in frame 4 they are about 0.4 m apart. In frame 3 the move goes 1 cm beyond the wall and "
+        "comes back before it ends. So no collision is found: a missed event. Any method that "
+        "looks only at the two ends of a step may miss one. With correction=replay the * stays on "
+        "the o."),
     19: Example("Elastic hops, counted", {
         "x_m": 0.84, "v_mps": 0.098, "a_mps2": -2.0, "CR": 1.0, "correction": "surface",
         "fps_target": 10.0, "show_exact_mark": True},
-        "Elastic, so the o bounces on for ever. And the *? Count lines from bounce to bounce. (19 "
-        "d shows v, which falls by 0.20 a line, except at a bounce.)",
-        "The hops of the * take 15, 14, 13 ... lines, down to 2 and 1, which are too low to see. "
-        "In frame 134 the film calls it at rest. At CR = 1 each hop is on average 2 k lines longer "
-        "than the one before. k is a sum: -1 for backward, 1/2 for surface. So here it is one line "
-        "shorter. With motion=exact, 0 for exact, they last 18, 19, 20 ... lines, for half a "
-        "minute: then the * meets the right wall. Predict others, with 1 for forward, 1 for "
-        "rebound, 0 for conserve, 0 for none."),
+        "No speed is lost in a bounce. Count lines from bounce to bounce: how long is each hop of "
+        "the *, beside the one before? (In 19 d, v falls by 0.20 a line in between.)",
+        "One line shorter: the hops take 15, 14, 13 ... lines, down to 2 and 1, which are too low "
+        "to see. In frame 134 the film calls the * at rest. There is a law for this. At CR = 1 "
+        "each hop is, on average, 2 k lines longer than the one before. To get k, add the motion's "
+        "number (1 for forward, 0 for exact, -1 for backward) and the correction's (1/2 for "
+        "surface, 1 for rebound, 0 for conserve, 0 for none). Here k is -1 + 1/2 = -1/2. With "
+        "motion=exact k is 1/2, and the hops take 18, 19, 20 ... lines for half a minute, until "
+        "the * meets the right wall."),
     20: Example("Hops that lose speed, counted", {
         "x_m": 0.66, "v_mps": 0.75, "a_mps2": -2.0, "CR": 0.8, "motion": "exact",
         "fps_target": 10.0, "show_exact_mark": True},
-        "Each bounce takes 20 % of the speed. Which comes to rest, o or *, and when? Count the "
-        "hops of the * as in 19. Press x after 10 s.",
-        "The hops of the * take 14, 12, 10 lines and, from frame 48 on (t = 4.8 s), 9 for ever, "
-        "about 20 cm high. On average over many starts a hop is followed by one of CR (hop + k) + "
-        "k lines. Exact has k = 0, rebound adds 1: after 9 come 0.8 (9 + 1) + 1 = 9. The o lies "
-        "still from t = 7.05 s on, its Zeno point. At 30 or 60 FPS the hops end at 7 to 13 lines, "
-        "so they are lower; at 120 the film calls them rest. The cure is correction=conserve: with "
-        "it the * comes to rest, as the o does, at about 7 s."),
+        "Each bounce takes 20 % of the speed. Which comes to rest, the o or the *? Count the hops "
+        "of the * as in 19. Press x after 10 s.",
+        "Only the o comes to rest, at t = 7.05 s, its Zeno point. The hops of the * take 14, 12, "
+        "10 lines and, from frame 48 on, 9 for ever. The law for any CR is: on average, a hop is "
+        "followed by one of CR (hop + k) + k lines. Here k is 1: exact has 0 and rebound 1. So "
+        "after 9 lines come 0.8 (9 + 1) + 1 = 9. A higher frame rate makes these hops lower, but "
+        "at 30 or 60 FPS they do not end either. The cure is correction=conserve: with it the * "
+        "comes to rest at about 7 s, as the o does."),
     21: Example("Five methods on one track", EXACT | {"show_methods": True},
         "The * is the car of example 10. Which letter leaves it first, which gets furthest away, "
         "and which two are never seen? Press x after 20 s.",
-        "From this start, a leaves the * at once, by 1 cm in frame 1, and gets up to 0.9 m away "
-        "within 20 s. b and c are moved exactly, as the * is. They leave it only after the first "
-        "bounce, in frame 14. The rebound puts b off the wall, against the pull, and does not slow "
-        "it: it gets furthest away, up to 1.8 m within 20 s. Conserve puts c there too, but slower "
-        "by what that costs: it stays within 10 cm for 20 s. d and e are right, under the *, so "
-        "they are never seen. The chart measures costs, too, and other starts."),
+        "Letter a leaves the * first, by 1 cm in frame 1. Within 20 s it gets up to 0.9 m away. "
+        "Letters b and c are moved exactly, as the * is. They leave it only after the first "
+        "bounce, in frame 14. The rebound lifts b off the wall, against the pull, and does not "
+        "slow it. So b gets furthest away, up to 1.8 m within 20 s. Conserve lifts c, too, but "
+        "slows it by what that costs. So c stays within 10 cm for these 20 s. Letters d and e are "
+        "right, so the * always hides them. The chart shows more: other starts, and costs."),
+    22: Example("The order of three lines", {
+        "x_m": 1.0, "a_mps2": -10.0, "CR": 0.5, "left_edge_m": 0.0, "right_edge_m": 2.0,
+        "fps_target": 60.0, "m_to_px": 1000.0, "motion": "forward", "correction": "surface",
+        "show_exact_mark": True},
+        "The left wall is a floor. In each frame gravity changes v, contacts are settled, then the "
+        "ball moves. Does it ever lie still? Press x after five seconds. (> means: above 13 cm.)",
+        "No. From frame 104 on the * hops for ever, in hops of 5 lines, about 6.5 mm high. (At "
+        "full width a column is 1 mm.) From contact to contact, a game with this order of its "
+        "lines is forward + surface. So k is 1 + 1/2, and by the law of film 20 hops should end "
+        "near k (1 + CR)/(1 - CR) = 4.5 lines. The change that mends it: settle contacts last. "
+        "That is backward + surface, and k is -1/2. The film of it, 22 motion=backward, is at rest "
+        "in frame 86. The o, the true ball, lies still from t = 1.35 s on."),
 }
 OWN_SCENE = Example("Your own scene", {},
     "How far does the car get from each wall? Does it come to rest?",

@@ -107,12 +107,11 @@ def test_2_is_drawn_up_to_8_cm_beyond_the_walls_and_never_stops(capsys: Capture)
 
 
 def test_3_is_caught_in_frame_46_and_sinks_a_millimetre_a_frame(capsys: Capture) -> None:
-    says(3, "frame 46", "t = 1.53 s", "60 %", "1 mm", "v is then 0.02", "nine or ten seconds")
+    says(3, "frame 46", "t = 1.53 s", "60 %", "1 mm", "nine or ten seconds")
     assert round(46 / 30, 2) == 1.53
     xs = [x_m for x_m, _, _ in states(3, 600)]
     assert [x_m < 0.25 for x_m in xs].index(True) + 1 == 46
     assert all(x_m < 0.25 for x_m in xs[45:])
-    assert {round(v_mps, 2) for _, v_mps, _ in states(3, 600)[99:]} == {0.02}
     assert min(b - a for a, b in pairwise(xs[45:52])) < 0 < max(
         b - a for a, b in pairwise(xs[45:52]))  # swings, in and out
     assert (xs[99] - xs[599]) / 500 == pytest.approx(1e-3, rel=0.1)
@@ -125,13 +124,13 @@ def test_3_is_caught_in_frame_46_and_sinks_a_millimetre_a_frame(capsys: Capture)
         assert 9 < frames / 30 < 10
 
 
-def test_4_collides_in_its_first_two_frames_and_leaves_at_6_4_mps() -> None:
-    says(4, "6.4 m/s")
-    bounces = [n for n, (_, _, mark_m) in enumerate(states(4, 1000)) if mark_m is not None]
-    assert bounces[3] - bounces[2] > 100
-    first = states(4, 3)
-    assert [mark_m is not None for _, _, mark_m in first] == [True, True, False]
-    assert first[1][1] == pytest.approx(6.4, abs=0.05)
+def test_4_draws_arcs_of_hundreds_of_lines_of_which_the_right_wall_cuts_off_the_first() -> None:
+    says(4, "hundreds of lines")
+    bounces = [n for n, (_, _, mark_m) in enumerate(states(4, 1880)) if mark_m is not None]
+    walls = [states(4, n + 1)[n][0] > 1 for n in bounces[2:5]]
+    assert walls == [True, False, False]
+    assert min(b - a for a, b in pairwise(bounces[3:7])) > 100
+    assert max(b - a for a, b in pairwise(bounces[-9:])) < 10  # the tail
 
 
 def test_5_shows_a_0_where_its_text_says(capsys: Capture) -> None:
@@ -205,10 +204,8 @@ def test_10_and_11_are_drawn_on_their_start_mark_at_every_turn(number: int) -> N
     assert {round(turn * 55) for turn in turns} == {110}
 
 
-def test_12_rests_from_its_Zeno_point_on(capsys: Capture) -> None:
-    says(12, "t = 11.91 s", "4 mm", "quarter", "20 bounces: lines in which v rises")
-    vs = [details(line)[1] for line in film(capsys, "12", "d").lines]
-    assert sum(b > a for a, b in pairwise(vs)) == 20
+def test_12_rests_from_its_Zeno_point_on() -> None:
+    says(12, "t = 11.91 s", "4 mm", "quarter")
     fall_s = math.sqrt(2 * 1.75 / 2)
     assert fall_s + 2 * fall_s * 0.8 / (1 - 0.8) == pytest.approx(11.91, abs=0.005)
     scene = Scene(**EXAMPLES[12].settings)
@@ -223,11 +220,13 @@ def test_12_rests_from_its_Zeno_point_on(capsys: Capture) -> None:
 
 @pytest.mark.parametrize("shift", [-1e-3, 0, 1e-3])
 def test_13_turns_higher_than_the_truth_before_any_collision(shift: float) -> None:
-    says(13, "frame 13", "1.91 m", "1.79 m", "0.02 m^2/s^2", "frame 25")
+    says(13, "frame 13", "1.91 m", "1.79 m", "1 cm", "0.02 m^2/s^2", "v^2/2 + 2 x", "frame 25")
     assert pytest.approx(0.02) == 2.0**2 * 0.1**2 / 2
     xs, truth, marks = zip(*beside_the_truth(13, 26, shift), strict=True)
     assert (max(xs), max(truth[:20])) == pytest.approx((1.91, 1.79), abs=0.01)
     assert (xs.index(max(xs)) + 1, set(marks[:25])) == (13, {None})
+    ahead = [x_m - true_m for x_m, true_m in zip(xs[:24], truth[:24], strict=True)]
+    assert [b - a for a, b in pairwise([0, *ahead])] == pytest.approx([0.01] * 24)
     control = beside_the_truth(13, 25, shift, motion="exact")
     assert apart_m(control[:24]) < 1e-12
     assert [mark_m is not None for _, _, mark_m in control] == [False] * 24 + [True]
@@ -236,7 +235,7 @@ def test_13_turns_higher_than_the_truth_before_any_collision(shift: float) -> No
 @pytest.mark.parametrize("shift", [-1e-3, 0, 1e-3])
 def test_17_is_exact_until_its_first_bounce_and_gains_energy_at_the_left_wall(
         shift: float) -> None:
-    says(17, "frame 14", "1.8 m", "6 cm")
+    says(17, "frame 14", "1.8 m", "10 cm")
     found = beside_the_truth(17, 200, shift)
     assert apart_m(found[:13]) < 1e-12 < apart_m(found[:14])
     assert apart_m(found) == pytest.approx(1.8, abs=0.05)
@@ -250,7 +249,7 @@ def test_17_is_exact_until_its_first_bounce_and_gains_energy_at_the_left_wall(
     says(16, "1 cm", "frame 1", "2 cm", "frame 2", "0.9 m")
     assert apart_m(beside_the_truth(17, 200, shift, correction="rewind")) < 1e-9
     cured = beside_the_truth(17, 200, shift, correction="conserve")
-    assert apart_m(cured) == pytest.approx(0.06, abs=0.013)
+    assert 0.04 < apart_m(cured) < 0.10
     columns = [round(55 * x_m) for x_m, _, _ in cured]
     assert max(columns) == 110  # that of the start mark
     assert sum(a < 110 == b for a, b in pairwise(columns)) == 7
@@ -270,31 +269,30 @@ def test_18_misses_a_bounce_in_frame_3(shift: float) -> None:
 
 
 def test_19_is_counted_as_its_question_says(capsys: Capture) -> None:
-    says(19, "15, 14, 13 ...", "2 and 1", "frame 134", "one line shorter", "18, 19, 20 ...",
-         "half a minute")
+    says(19, "15, 14, 13 ...", "2 and 1", "frame 134", "One line shorter", "18, 19, 20 ...",
+         "half a minute", "2 and 1", "-1 + 1/2 = -1/2")
     assert hops_nearby(19, 11, motion="exact") == [[*range(18, 29)]] * 9
     longer = beside_the_truth(19, 300, 0, motion="exact")
     meets, *_ = [n for n, (_, _, mark_m) in enumerate(longer) if mark_m and mark_m > 2.2]
     assert meets / 10 == pytest.approx(30, abs=3)
     for name in K:
         assert f"{K[name]:g} for {name}".replace("0.5", "1/2") in EXAMPLES[19].seen
-    assert "v, which falls by 0.20" in EXAMPLES[19].look_for
+    assert "v falls by 0.20 a line" in EXAMPLES[19].look_for
     vs = [details(line)[1] for line in film(capsys, "19", "d").lines]
     found = [line for line, (a, b) in enumerate(pairwise(vs)) if abs(b - a + 0.20) > 0.011]
     assert [b - a for a, b in pairwise(found)][:15] == [*range(15, 0, -1)]
 
 
 def test_20_hops_9_lines_or_about_as_many_and_the_truth_lies_still(capsys: Capture) -> None:
-    says(20, "14, 12, 10", "frame 48", "t = 4.8 s", "9 for ever", "0.8 (9 + 1) + 1 = 9", "20 cm",
-         "7.05 s", "7 to 13 lines", "7 s")
+    says(20, "14, 12, 10", "frame 48", "9 for ever", "0.8 (9 + 1) + 1 = 9", "7.05 s", "30 or 60",
+         "7 s")
     bounces = [n for n, (_, _, mark_m) in enumerate(states(20, 57), 1) if mark_m is not None]
     assert bounces == [12, 26, 38, 48, 57]
     assert hops_nearby(20, 23) == [[14, 12, 10] + [9] * 20] * 9
-    assert pytest.approx(0.20, abs=0.005) == 2 * (9 * 0.1)**2 / 8
-    for fps in (30, 60, 120):
+    for fps in (30, 60):  # as many lines, of shorter frames: so lower
         for lines in hops_nearby(20, 200, fps_target=fps):
             assert 7 <= min(lines[-20:]) <= max(lines[-20:]) <= 13
-    assert film(capsys, "20", "fps_target=120").ending.endswith("at rest against a wall.")
+        assert "limit" in film(capsys, "20", f"fps_target={fps}", "--frames", "2000").ending
     truth = truth_of(Scene(**EXAMPLES[20].settings))
     assert step(truth, truth.x_m, truth.v_mps, 7.05)[:2] != (0.25, 0.0)
     assert step(truth, truth.x_m, truth.v_mps, 7.06)[:2] == (0.25, 0.0)
@@ -309,11 +307,36 @@ def test_21_shows_what_the_chart_measures(shift: float, capsys: Capture) -> None
     for letter, left, off_m in (("a", 1, 0.9), ("b", 14, 1.8), ("c", 14, 0.06)):
         motion, correction = METHODS[letter]
         found = beside_the_truth(21, 200, shift, motion=motion, correction=correction)
-        assert apart_m(found) == pytest.approx(off_m, abs=0.05 if letter in "ab" else 0.013)
+        assert apart_m(found) == pytest.approx(off_m, abs=0.05 if letter in "ab" else 0.03)
         assert [apart_m([frame]) < 1e-9 for frame in found].index(False) + 1 == left
     for picture in ("width_px=135", "width_px=80 m_to_px=32.425"):
         words = ["21", *picture.split(), f"x_m={2 * (1 + shift)}", "--frames", "200"]
         assert set("".join(film(capsys, *words).lines)) == set(" |*.0abc")
+
+
+@pytest.mark.parametrize("shift", [-1e-3, 0, 1e-3])
+def test_22_hops_5_lines_for_ever_and_rests_if_contacts_are_settled_last(
+        shift: float, capsys: Capture) -> None:
+    says(22, "frame 104", "5 lines", "6.5 mm", "k is 1 + 1/2", "= 4.5 lines", "k is -1/2",
+         "frame 86", "1.35 s", "1 mm")
+    assert [K["forward"], K["backward"], K["surface"]] == [1, -1, 1 / 2]
+    assert pytest.approx(4.5) == 1.5 * (1 + 0.5) / (1 - 0.5)
+    found = beside_the_truth(22, 2000, shift)
+    bounces = [n for n, (_, _, mark_m) in enumerate(found, 1) if mark_m is not None]
+    assert bounces[5:8] == [99, 104, 109]
+    assert {b - a for a, b in pairwise(bounces[5:])} == {5}
+    assert bounces[5] - bounces[4] > 5
+    for first, close_m in ((104, 2e-4), (1900, 5e-5)):
+        assert max(x_m for x_m, *_ in found[first:]) == pytest.approx(0.0065, abs=close_m)
+    assert [true_m > 0 for _, true_m, _ in found[79:82]] == [True, False, False]  # 81/60 s
+    start = f"x_m={1 + shift}"
+    ending = film(capsys, "22", start, "motion=backward").ending
+    assert ending == "Stopped after 86 frames, t = 1.43 s: the car is at rest against a wall."
+    assert film(capsys, "22", start, "--frames=900").ending.endswith("that is the frame limit.")
+    for picture in ("width_px=135", "width_px=80 m_to_px=589.55"):  # the last hops are seen
+        lines = film(capsys, "22", start, *picture.split(), "--frames=200").lines
+        assert len({line.index("*") for line in lines[99:]}) >= 4
+        assert lines[0].endswith(">")
 
 
 def test_14_is_thrown_out_to_the_left_and_to_the_right_alternately(capsys: Capture) -> None:

@@ -76,7 +76,7 @@ def test_before_the_pause_the_question_stands_last_and_little_stands_beside_it(
         scene = r" a second(?:, irregular by up to 25 %, each step [a-z ]+)?\. (?:a: .* replay\. )?"
         beside = re.split(scene, header)[1].replace(question, "")
         assert len(beside.split()) <= 45
-        assert len(question.split()) <= 31
+        assert len(question.split()) <= 36
 
 
 def test_each_line_goes_out_at_once_and_does_not_wait_in_a_buffer(
@@ -301,8 +301,8 @@ def test_the_keys_are_told_and_the_next_example_is_named_where_there_are_any(
     told = f"Keys {where}: p pauses, s steps, x quits" if where else "No keys here"
     assert f"a second. {told}{why} Now the car loses" in out
     assert out.endswith(f"Next: {PYTHON} airtrack.py 4" if where else EXAMPLES[3].seen)
-    assert (f"{EXAMPLES[21].seen} Next: {PYTHON} airtrack.py chart" in " ".join(
-        play("21 --frames 2").split())) is bool(where)
+    assert (f"{EXAMPLES[22].seen} Next: {PYTHON} airtrack.py chart" in " ".join(
+        play("22 --frames 2").split())) is bool(where)
     for last in ("99", "-1", "3 --fast"):
         assert "Next" not in play(f"{last} --frames 2")
 
