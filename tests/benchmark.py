@@ -17,14 +17,6 @@ from airtrack import Scene, cost_us, run
 from examples import EXAMPLES
 
 FRAMES = 20_000
-BARE = """\
-v += a * dt
-x += v * dt
-if not left <= x <= right:
-    wall = left if x < left else right
-    x, v = wall - CR * (x - wall), -CR * v
-"""  # a step of example 8, written out: backward + rebound
-START = "x, v, a, dt, left, right, CR = 2.0, 0.0, -2.0, 0.1, 0.25, 2.2, 1.0"
 
 
 def frame_us(scene: Scene) -> float:
@@ -35,9 +27,8 @@ def frame_us(scene: Scene) -> float:
 
 
 def main() -> None:
-    seven, eight = (Scene(**EXAMPLES[number].settings) for number in (7, 8))
-    bare_us = 1e6 / FRAMES * min(repeat(BARE, START, number=FRAMES, timer=time.process_time))
-    print(f"example 8: its step written out takes {10 * bare_us / cost_us(eight, 10):.0%} of it")
+    seven, ten = (Scene(**EXAMPLES[number].settings) for number in (7, 10))
+    print(f"example 10: the move takes {cost_us(ten, 10) / 10 / frame_us(ten):.0%} of a frame")
     rest = 1 - frame_us(replace(seven, auto_off=False)) / frame_us(seven)
     print(f"example 7: to ask whether the car is at rest takes {rest:.0%} of a frame")
 

@@ -19,20 +19,12 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 import airtrack
-from airtrack import CORRECTIONS, EVERY_CORRECTION, MOTIONS, SETTINGS, Scene
+from airtrack import CORRECTIONS, EVERY_CORRECTION, METHODS, MOTIONS, SETTINGS, Scene
 from examples import EXAMPLES
-from figures import errors_m, printed
-from films import (
-    HERE,
-    README,
-    K,
-    apart_m,
-    beside_the_truth,
-    details,
-    environment,
-    film,
-    hops_nearby,
-)
+from figures import RATES, errors_m, printed
+from films import HERE, README, K, details, environment, film, hops_nearby
+from test_examples import states
+from test_stability import ORDERS
 
 Capture = pytest.CaptureFixture[str]
 LISTINGS: list[str] = re.findall(r"^```\w*\n(.*?)^```$", README, re.MULTILINE | re.DOTALL)
@@ -60,7 +52,7 @@ def filmed(code: str, frames: int) -> tuple[list[str], set[str]]:
 def test_the_one_pager_is_a_page_and_shows_what_the_program_shows(capsys: Capture) -> None:
     code = listing("def settle(")
     lines, names = filmed(code, 600)
-    assert code.count("\n") == int(re.findall("Its ([0-9]+) lines", README)[0]) <= 40
+    assert code.count("\n") == int(re.findall("in ([0-9]+) lines", README)[0]) <= 40
     assert names == {"__builtins__", "time", "move", "settle", "draw", "film"}  # no globals
     shown = film(capsys, "--frames", "600").lines
     assert [line[:126] for line in lines] == [line[:126] for line in shown]
@@ -69,7 +61,7 @@ def test_the_one_pager_is_a_page_and_shows_what_the_program_shows(capsys: Captur
 def test_a_spring_swings_on_from_wall_to_wall() -> None:
     code, old = listing("def settle("), "    v_mps += a_mps2 * dt_s\n"
     assert code.index(old) == code.index("dt_s):\n") + len("dt_s):\n")  # the first line of move
-    new, = re.findall(r"first\s+line\s+of\s+`move`\s+`(v_mps .*)`", README)
+    new, = re.findall(r"first line of `move` `(v_mps .*)`", README)
     lines, _ = filmed(code.replace(old, f"    {new}\n"), 6000)
     for last in (lines[3000:4000], lines[5000:]):
         xs = [details(line)[0] for line in last]
@@ -78,18 +70,59 @@ def test_a_spring_swings_on_from_wall_to_wall() -> None:
 
 def test_the_film_as_it_is_met_is_the_program_s(capsys: Capture) -> None:
     words, = re.findall(r"`python airtrack.py (13 --fast [^`]*)`", README)
-    assert listing("       |      *  ").splitlines() == [
+    first, last = (text for text in LISTINGS if re.fullmatch(r"([ |*o]+\n){9}", text))
+    assert (first + last).splitlines() == [
         line.rstrip() for line in film(capsys, *words.split()).lines]
+    assert README.index(first) < README.index("<details>") < README.index(last)
     quoted = [quote.replace("\n> ", " ") for quote in re.findall(
         r"^> (.*?)$(?!\n>)", README, re.MULTILINE | re.DOTALL)]
     assert quoted == [EXAMPLES[13].look_for, EXAMPLES[13].seen]
+    scene = Scene(**EXAMPLES[13].settings)
+    assert "Each line is a tenth of a second. The walls are at 0.25 and 2.2 m." in README
+    assert (scene.fps_target, scene.left_edge_m, scene.right_edge_m) == (10, 0.25, 2.2)
 
 
-def test_the_lesson_is_of_films_that_there_are_and_lasts_45_minutes() -> None:
+LESSON = [1, 3, 13, 8, 10, 21]
+
+
+def test_the_lesson_s_films_are_there_and_its_minutes_add_up() -> None:
     rows = re.findall(r"^\| (\d+) \| .*\? \| .* \| (\d+) \|$", README, re.MULTILINE)
-    assert [int(number) for number, _ in rows] == [1, 3, 13, 8, 10, 21]
-    assert "one lesson of 45 minutes" in README
-    assert sum(int(minutes) for _, minutes in rows) == 45
+    assert [int(number) for number, _ in rows] == LESSON
+    assert f"They add up to {sum(int(minutes) for _, minutes in rows)}," in README
+
+
+def test_the_teacher_s_sheet_has_the_program_s_figures() -> None:
+    sheet = README.partition("<summary>For the teacher")[2].partition("</details>")[0]
+    rows = re.findall(
+        r"^\| (\d+) \| (\S+) m \| (\S+) m/s \| (\S+) m/s\u00b2 \| (\S+) \| (\d+) \| (\d+) s", sheet,
+        re.MULTILINE)
+    assert [int(row[0]) for row in rows] == LESSON
+    for number, *told, _ in rows:
+        scene = Scene(**EXAMPLES[int(number)].settings)
+        assert [float(figure) for figure in told] == [
+            scene.x_m, scene.v_mps, -scene.a_mps2, scene.CR, scene.fps_target]
+    least_s = [251 / 30, 273 / 30, 1.3, 4 * 2.6, 4 * 2.646, 20]  # then their answers are seen
+    assert all(least <= float(row[-1]) <= least + 2 for row, least in zip(
+        rows, least_s, strict=True))
+    told = " ".join(sheet.split())
+
+    (x_m, v_mps, _), (_, after_mps, mark_m), (next_m, *_) = states(3, 47)[44:]
+    assert mark_m is not None
+    figures = [100 * (0.25 - mark_m), 1.5 / 30 - v_mps, after_mps, after_mps - 1.5 / 30,
+               100 * (next_m - mark_m)]
+    assert x_m > 0.25 > next_m
+    assert "frame 46 it is {:.1f} cm beyond the wall, with {:.2f} m/s. It keeps 60 % of this " \
+           "speed, which is {:.2f} m/s. In the next frame the pull slows it to {:.2f} m/s, so it " \
+           "moves back only 1.33/30 m = {:.1f} cm.".format(*figures) in told
+    told = told.translate({0xb2: "2", 0xb7: "*"})
+    for figure in (f"CR2 = {0.7**2:.2f}", f"a dt2/2 = {100 * 2 * 0.1**2 / 2:.0f} cm too far",
+                   f"a2 dt2/2 = {2**2 * 0.1**2 / 2:.2f} m2/s2", "takes a dt2/2 = 1 cm",
+                   "26 cm in a fall", "2 * 7 = 14 cm, then 2 * 19 = 38 cm", "1.8 m within 20 s",
+                   "within 10 cm",
+                   f"{math.sqrt(1.75):.3f} s after it starts, so 0.023 s after frame 13"):
+        assert figure in told  # those of 8 and 21: test_examples.py
+    for letter, (motion, correction) in METHODS.items():
+        assert f"{letter} ({motion} + {correction})" in told
 
 
 @given(depth=st.floats(0, 10), falling=st.floats(-50, 50), pull=st.floats(-50, 50),
@@ -112,7 +145,8 @@ def test_the_map_is_that_of_the_program() -> None:
 
 
 def test_one_collision_is_drawn_by_each_correction_as_the_program_does(capsys: Capture) -> None:
-    words, = re.findall("`python airtrack.py (99 d .*) correction=rebound`", README)
+    words = ("99 d x_m=0.8 v_mps=-5 a_mps2=-20 left_edge_m=0.5 right_edge_m=1.5 fps_target=10 "
+             "motion=exact show_exact_mark=True m_to_px=24 width_px=38 --frames 1")
     drawn = []
     for correction in EVERY_CORRECTION:
         line, = film(capsys, *words.split(), f"correction={correction}").lines
@@ -140,7 +174,7 @@ def test_the_examples_are_those_of_the_program() -> None:
 
 
 def test_the_settings_have_the_units_and_defaults_of_the_program() -> None:
-    told = re.findall(r"`(\w+)`\s=\s([\w.]+)(?: (1/s|px/m|m/s\^2|m/s|m)\b)?", README)
+    told = re.findall(r"^\| `(\w+)` \| .* \| (\S+)(?: (\S+))? \|$", README, re.MULTILINE)
     assert len(told) == 11
     assert told == [(name, str(SETTINGS[name].default), SETTINGS[name].metadata["unit"])
                     for name, *_ in told]
@@ -159,7 +193,7 @@ def test_the_hops_are_counted_and_predicted_as_its_tables_say() -> None:
             assert int(twice) == 2 * (K[motion] + K[correction])
             told.append((19, 1.0, motion, correction, text.partition(" \u2026")[0]))
     assert len(told) == 9
-    answer, = re.findall(r"film: ([0-9\s]+) \u2026 lines", README)
+    answer, = re.findall(r"film has ([0-9\s]+) \u2026 lines", README)
     counted, predicted = (line.split("|")[2:-1] for line in re.findall(
         r"^\| (?:counted|predicted) \|.*$", README, re.MULTILINE))
     for number, CR, motion, correction, text in (
@@ -171,25 +205,33 @@ def test_the_hops_are_counted_and_predicted_as_its_tables_say() -> None:
         assert hops_nearby(number, len(lines), **changes) == [lines] * 9
     assert predicted[1:] == [f" {0.8 * (int(hop) + 1) + 1:.1f} " for hop in counted[:-1]]
     law = list(accumulate(range(99), lambda hop, _: 0.6 * (hop + 1.5) + 1.5, initial=11.0))
-    assert f" 11, {law[1]:g}, {law[2]:.1f}, {law[3]:.1f} \u2026, and n is {law[-1]:.0f}." in README
+    assert (f"11 is followed by {law[1]:g}, {law[2]:.1f}, {law[3]:.1f} \u2026, and they end near "
+            f"{law[-1]:.0f}.") in README.replace("\n", " ")
+
+
+def test_the_orders_of_three_lines_are_those_of_the_loops() -> None:
+    rows = re.findall(r"^\| (\w+, \w+, \w+) \| (\S+) \| It (.*)\. \|$", README, re.MULTILINE)
+    assert {order: float(Fraction(k.replace("\u2212", "-"))) for order, k, _ in rows} == ORDERS
+    assert [end for *_, end in rows] == ["hops for ever"] + 2 * ["comes to rest"]
 
 
 def test_figures_of_films_and_chart_are_what_it_says(capsys: Capture) -> None:
     ending = film(capsys, "12", "CR=0.9", "correction=replay").ending
     assert "t = 24.99 s: the car is at rest against a wall" in ending
     assert math.sqrt(1.75) * 1.9 / 0.1 == pytest.approx(25.1, abs=0.05)
-    lines = film(capsys, "16", "d", "--frames", "200").lines
-    worst_m = max(abs(float(line.partition("err = ")[2])) for line in lines)
-    told = f"example 16 is up to {worst_m:.1f} m off, its point {errors_m('10', 'a')[0]:.1f} m."
-    assert told in README.replace("\n", " ")
-    assert errors_m("10", "a")[8] / errors_m("10", "d")[0] == pytest.approx(1e12, rel=0.2)
-    ball, right = (apart_m(beside_the_truth(
-        12, 1200, 0, motion=motion, correction=correction, fps_target=60)[5::6])
-        for motion, correction in (("backward", "surface"), ("exact", "rewind")))
-    assert ball / right > 1000  # "thousands of times as accurate", sampled every 0.1 s
-    for correction in ("none", "surface"):
-        error_m = apart_m(beside_the_truth(2, 200, 0, correction=correction)[-1:])
-        assert f"({error_m:.1f} m off after 200 frames of example 2)" in README
+    page = " ".join(README.split())
+    a, b, c, d = (errors_m("10", letter) for letter in "abcd")
+    first, = re.findall("from ([0-9]+) FPS on, b is worse than a", page)
+    assert [b_m > a_m for b_m, a_m in zip(b, a, strict=True)] == [
+        fps >= int(first) for fps in RATES]
+    assert "error of c gets four times smaller, that of a only twice" in page
+    assert (c[5] / c[8])**(1 / 3) == pytest.approx(4, rel=0.2)
+    assert (a[5] / a[8])**(1 / 3) == pytest.approx(2, rel=0.2)
+    assert "a million million times as accurate as a is at 3840 FPS" in page
+    assert round(math.log10(a[8] / d[0])) == 12  # the rest is round-off
+    assert "From 5 to 240 FPS it has a G: all ten runs gain energy" in page
+    row, = re.findall(r"(?m)^exact \+ rebound +(.*)$", listing("X out, "))
+    assert row.split()[2:8] == ["G"] * 6
 
 
 def add_the_motion(folder: Path) -> None:
@@ -226,7 +268,7 @@ def test_no_command_is_broken_over_two_lines() -> None:
 def test_every_command_line_is_one(words: str, monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("film", "chart", "stability"):
         monkeypatch.setattr(airtrack, name, lambda *_: 0)
-    assert airtrack.obey(words.split()) == 0
+    assert airtrack.obey(words.partition(" > ")[0].split()) == 0
 
 
 def test_pip_install_brings_the_dependencies_alone() -> None:

@@ -103,35 +103,31 @@ def test_conserve_leaves_CR_squared_of_the_energy_above_the_wall(
         assert off_m == pytest.approx(CR * overlap_m * (left > needed), abs=1e-12 * abs(wall_m))
 
 
-# 5. The law of the hops, counted in lines as in a film. (1) and (2) hold in each hop: u + w is hop
-#    g dt, and v^2/2 grows by g drop and by what the motion adds to E. The next hop has, on average,
-#    CR (hop + k) + k lines. It needs no other wall.
+# 5. The law of the hops, counted in lines as in a film. (1) holds in each hop: u + w is hop g dt.
+#    The next hop has, on average, CR (hop + k) + k lines. It needs no other wall.
 
 FOUND = [(motion, correction) for motion in ("forward", "exact", "backward")
          for correction in ("surface", "rebound", "conserve")]
 TOLD = " ".join(LAW.replace("#", "").split())
 
 
-@pytest.mark.parametrize("correction", ["none", "surface", "rebound"])
+@pytest.mark.parametrize("correction", ["none", "surface", "rebound", "conserve"])
 @pytest.mark.parametrize("motion", MOTIONS)
 @given(side=sides, g_mps2=st.floats(2, 10), CR=st.floats(0, 1), dt_s=st.floats(0.05, 0.1),
        off_m=st.floats(0, 1), v_mps=st.floats(-3, 3))
-def test_in_each_hop_speed_grows_by_the_pull_and_energy_by_the_drop_and_the_motion(
+def test_in_each_hop_the_pull_adds_g_dt_in_each_frame(
         motion: str, correction: str, side: int, g_mps2: float, CR: float, dt_s: float,
         off_m: float, v_mps: float) -> None:
     scene = Scene(motion=motion, correction=correction, CR=CR, a_mps2=side * g_mps2, x_m=0,
                   left_edge_m=min(0, -1000 * side), right_edge_m=max(0, -1000 * side))
-    x_m, begun = -side * off_m, list[tuple[int, float, float]]()  # hops: the line, height and u
+    x_m, begun = -side * off_m, list[tuple[int, float]]()  # hops: the line, and u
     for line in range(300):
         w_mps = side * MOTIONS[motion](x_m, v_mps, scene.a_mps2, dt_s)[1]
         x_m, v_mps, mark_m = step(scene, x_m, v_mps, dt_s)
         if mark_m is not None:
-            for first_line, off_m, u_mps in begun[-1:]:
-                hop, drop_m = line - first_line, off_m + side * mark_m
-                assert u_mps + w_mps == pytest.approx(hop * g_mps2 * dt_s, abs=1e-9)
-                moves = hop * K.get(motion, 0) * (g_mps2 * dt_s)**2 / 2  # 0: a reader's own, mean
-                assert (w_mps**2 - u_mps**2) / 2 == pytest.approx(g_mps2 * drop_m + moves, abs=1e-9)
-            begun.append((line, -side * x_m, -side * v_mps))
+            for first_line, u_mps in begun[-1:]:
+                assert u_mps + w_mps == pytest.approx((line - first_line) * g_mps2 * dt_s, abs=1e-9)
+            begun.append((line, -side * v_mps))
     assert len(begun) > 1
 
 
@@ -168,10 +164,6 @@ def test_a_hop_repeats_if_all_its_bounces_are_found_equally_late_by_less_than_a_
         if overlap_m >= 0 and abs(late - 1) > 1e-9:
             assert (hops(scene, 50) == [lines] * 50) is (0 < late < 1)
             repeated += [lines] * (0 < late < 1)
-        if (motion, correction, CR, lines) == ("exact", "surface", 0.9, 19):
-            assert late == pytest.approx(1)
-            for hair in (-1e-9, 1e-9):
-                assert hops(replace(scene, v_mps=scene.v_mps + hair), 50)[1:] == [17] * 49
     assert bool(repeated) is ((motion, correction) != ("backward", "surface"))
 
 
