@@ -45,8 +45,8 @@ from examples import EXAMPLES, OWN_SCENE, Keys, taken_keys
 # velocity all through the frame. forward takes the velocity of its start, backward that of its end.
 # (For a constant a, backward Euler is the same as semi-implicit Euler.) Both are of first order:
 # with half the dt, the error after a given time is half as large. exact has no error if a is
-# constant. In free flight the car's energy should not change. E = v^2/2 - a x is its energy per
-# kilogram, and each docstring says what a step does to E. (Friction would make a depend on v.)
+# constant. In free flight the car's energy should not change. Per kilogram it is E = v^2/2 - a x,
+# and each docstring says what a step does to it. (Friction would go in here: a would depend on v.)
 
 State = tuple[float, float]  # x_m, v_mps
 
@@ -65,7 +65,6 @@ def exact(x_m: float, v_mps: float, a_mps2: float, dt_s: float) -> State:
 
 MOTIONS = {"forward": forward, "backward": backward, "exact": exact}  # name a new one here
 
-
 # ==== 2. Colliding: the stickiness corrections ==================================================
 #     wall_m       the position of a wall (m)
 #     CR           the coefficient of restitution: speed after a bounce / speed before
@@ -73,39 +72,40 @@ MOTIONS = {"forward": forward, "backward": backward, "exact": exact}  # name a n
 # A collision is found when a move has ended beyond a wall. A correction takes the x and v of that
 # moment, and returns the x and v after the bounce. The overlap, x - wall, is how far beyond the
 # wall the car is (it is negative at the left wall). Why "stickiness"? Without a correction the car
-# may stick in the wall: see none. What becomes of a car that hops on a wall, section 7 tells.
+# may stick in the wall: see none. Section 7 tells what becomes of a car that hops on a wall.
 
 def none(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Reverse v, but leave the car beyond the wall. It may never get out.
 
-    A frame later it may still be beyond the wall. Perhaps CR < 1 has slowed it (example 3). Or the
-    way out is shorter than the way in: with backward if the pull is into the wall, with forward if
-    it is out of it. Then v is reversed again, into the wall, and so on: caught, often for good.
+    A frame later the car may still be beyond the wall. Perhaps CR < 1 has slowed it (example 3). Or
+    the way out is shorter than the way in: with backward if the pull is into the wall, with forward
+    if the pull is out of the wall. Then v is reversed again, now into the wall, and so on: caught.
     """
     return x_m, -CR * v_mps
 
 def surface(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Put the car on the wall.
 
-    If the pull is into the wall, this lifts the car and does not slow it: too much energy is left.
+    If the pull is into the wall, this moves the car against the pull. That should cost speed, but v
+    is not made smaller for it. So the car has too much energy.
     """
     return wall_m, -CR * v_mps
 
 def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Put the car in front of the wall, CR * overlap away. Without a pull it would be there by now.
 
-    If the pull is into the wall, this lifts the car further than surface does, and does not slow it
-    either. If CR * overlap is longer than the track, the car is thrown out (example 14).
+    If the pull is into the wall, the car has too much energy, for the same reason as with surface.
+    If CR * overlap is longer than the track, the car is thrown out (example 14).
     """
     overlap_m = x_m - wall_m
     return wall_m - CR * overlap_m, -CR * v_mps
 
 def conserve(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
-    """Put the car where rebound does, at the speed that its energy after the bounce gives it there.
+    """Put the car where rebound does, at the speed with which it has the right energy there.
 
-    If that energy does not carry the car so far, put it on the wall. Otherwise, with the exact
-    motion, only the moment of the bounce is wrong. This error is of second order: with half the dt
-    it is a quarter as large.
+    If this energy is too small to get there, put the car on the wall. With the exact motion, only
+    the moment of the bounce is wrong. This error is of second order: with half the dt it is a
+    quarter as large. But where rebound throws the car out, conserve does so, too.
     """
     overlap_m = x_m - wall_m
     # Back at the wall E is the same. So the speed there has w^2 = v^2 - 2 a overlap; CR w is left.
@@ -123,8 +123,8 @@ def arrival(d_m: float, u_mps: float, a_mps2: float) -> tuple[float, float]:
     """
     # Energy gives the speed w at the wall: w^2 = u^2 + 2 a d. (Round-off may make it negative.)
     w_mps = math.sqrt(max(0.0, u_mps * u_mps + 2 * a_mps2 * d_m))
-    # The time t follows from the mean velocity, d = (u + w)/2 t, or from w = u + a t. Take the one
-    # that does not subtract two nearly equal numbers: the difference would be mostly round-off.
+    # The time t follows from the mean velocity, d = (u + w)/2 t, or from w = u + a t. But u + w may
+    # be mostly round-off if u < 0, and w - u if u > 0: so u decides.
     return (2 * d_m / (u_mps + w_mps) if u_mps > 0 else (w_mps - u_mps) / a_mps2), w_mps
 
 def rewind(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
@@ -148,16 +148,15 @@ EXACT_ONLY = ("rewind", "replay")  # they need the exact motion
 METHODS = {"a": ("backward", "rebound"), "b": ("exact", "rebound"), "c": ("exact", "conserve"),
            "d": ("exact", "rewind"), "e": ("exact", "replay")}
 
-
 # ==== 3. The scene: all that a run starts from ==================================================
 
 def setting(default: Any, meaning: str, allowed: Any = (False, True), unit: str = "") -> Any:
-    """A row of the table below. allowed is a number's lowest and highest value, or all choices."""
+    """A row of the table below. A number is allowed from, to; otherwise these are the choices."""
     return field(default=default, metadata={"meaning": meaning, "allowed": allowed, "unit": unit})
 
 @dataclass(frozen=True)
 class Scene:
-    """The settings, by default with the lesson's own method. BadInput (a ValueError) if wrong."""
+    """All settings. A wrong one raises BadInput. The default method is a tutorial's (README.md)."""
 
     x_m: float = setting(1.1, "starting position", (-1000, 1000), "m")
     v_mps: float = setting(0.0, "starting velocity: speed to the right", (-1000, 1000), "m/s")
@@ -168,7 +167,7 @@ class Scene:
     motion: str = setting("backward", "how the car is moved", tuple(MOTIONS))
     correction: str = setting("rebound", "stickiness correction of a collision", EVERY_CORRECTION)
     fps_target: float = setting(30.0, "frames a second; time step dt = 1/fps", (0.1, 1000), "1/s")
-    use_observed_dt: bool = setting(False, "the step is how long the frame before took")
+    use_observed_dt: bool = setting(False, "dt is the time that the frame before took")
     jitter: float = setting(0.0, "frame lengths vary by up to this fraction", (0, 0.9))
     auto_off: bool = setting(True, "stop when the car rests against a wall")
     m_to_px: float = setting(55.0, "zoom; a pixel is a character", (0.001, 1000), "px/m")
@@ -187,13 +186,12 @@ class Scene:
             return self.left_edge_m
         return self.right_edge_m if x_m > self.right_edge_m else x_m
 
-
 # ==== 4. A frame ================================================================================
 
 def step(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> tuple[float, float, float | None]:
     """One frame of dt_s: move the car, then settle any collision. Returns x_m, v_mps, mark_m.
 
-    mark_m is where the move alone ended, and so shows how deep a collision was found, or None.
+    mark_m is None or, in a collision, where the move alone ended. It shows how deep the car was.
     """
     free_m, free_mps = MOTIONS[scene.motion](x_m, v_mps, scene.a_mps2, dt_s)
     on_track_m = scene.to_track(free_m)  # the wall, if the move ended beyond one
@@ -214,13 +212,13 @@ def replay(scene: Scene, x_m: float, v_mps: float, t_s: float) -> State:
     """Replace the move: follow the exact motion from the frame's start, from bounce to bounce.
 
     This is right for several bounces in a frame (example 15), and for infinitely many: the tests
-    compare it with a reference of 60 digits. Think of a ball in a room, with its height h above the
-    floor. The wall that the car is pulled to is the floor, the other one the ceiling. The loop
-    ends: a way to the ceiling takes time, and a ball too slow for that is left to hops().
+    compare it with a reference of 60 digits. Think of a ball in a room. The wall that the car is
+    pulled to is the floor, the other one is the ceiling, and h is the height above the floor. If
+    the ball is on the floor and too slow for the ceiling, hops() does the rest of the frame.
 
-    A graze is a touch of the ceiling at almost no speed. Round-off would decide whether the ball
-    touches it. So a ball that would rise less than GRAZE_M above the ceiling counts as not touching
-    it. Each such miss shifts it, with the default walls by up to 4e-5 m, and these shifts add up.
+    A graze is a touch of the ceiling at almost no speed. Round-off would decide whether there is a
+    touch. So if the ball would rise less than GRAZE_M above the ceiling, there is none. With the
+    default walls, each graze that is missed makes an error of up to 4e-5 m, and these add up.
     """
     up, floor_m = (-1, scene.right_edge_m) if scene.a_mps2 > 0 else (1, scene.left_edge_m)
     room_m, g_mps2, CR = scene.right_edge_m - scene.left_edge_m, abs(scene.a_mps2), scene.CR
@@ -252,14 +250,13 @@ def hops(v_mps: float, g_mps2: float, CR: float, t_s: float) -> tuple[float, flo
     zeno_s = hop_s / (1 - CR) if CR < 1 else math.inf
     if hop_s > t_s:  # not even one hop fits
         return t_s, v_mps
-    if zeno_s <= t_s or t_s + hop_s == t_s:  # all fit, or a hop is too short for round-off
+    if zeno_s <= t_s or t_s + hop_s == t_s:  # all fit, or hop_s is lost in round-off
         return 0.0, 0.0
     if CR == 1:
         return math.fmod(t_s, hop_s), v_mps
     # n hops last zeno (1 - CR^n). log1p(y) is log(1 + y) and expm1(y) is e^y - 1, for a small y.
     n = math.floor(math.log1p(-t_s / zeno_s) / math.log(CR))
     return t_s + zeno_s * math.expm1(n * math.log(CR)), v_mps * CR**n
-
 
 # ==== 5. Drawing: one frame, one line, painted from back to front ===============================
 
@@ -271,7 +268,7 @@ def paint(line: bytearray, mark: str, x_px: float) -> None:
 
 def render_track(scene: Scene, x_m: float, mark_m: float | None = None,
                  others: Mapping[str, State] = {}) -> str:
-    """The line of a frame: scene.width_px characters. others are the other cars, by their marks."""
+    """The line of a frame: scene.width_px characters. others: the other cars, by their marks."""
     line, zoom = bytearray(b" " * scene.width_px), scene.m_to_px
     if scene.show_collision_mark and mark_m is not None:
         paint(line, "0", mark_m * zoom)
@@ -292,7 +289,6 @@ def details_text(x_m: float, v_mps: float, fps: float, truth: State | None) -> s
     text = f"x = {x_m:6.2f}, v = {v_mps:5.2f}, FPS = {fps:3.0f}"
     return f"{text}, err = {x_m - truth[0]:9.2e}" if truth else text
 
-
 # ==== 6. The run: the main loop =================================================================
 
 def planned(scene: Scene) -> Iterator[tuple[float, float]]:
@@ -302,7 +298,7 @@ def planned(scene: Scene) -> Iterator[tuple[float, float]]:
         yield (1 + scene.jitter * (2 * fraction - 1)) / scene.fps_target, scene.fps_target
 
 STALL_S, STALL_FRAMES = 0.15, 1.5  # a frame longer than both is a stall, as of a dragged window
-LATE_S = 0.02  # the next frames make up for a delay of up to this, or of up to a frame
+LATE_S = 0.02  # a delay of at most this, or of at most a frame, is made up by the next frames
 
 def paced(scene: Scene, keys: Keys) -> Iterator[tuple[float, float]]:
     """Wait until each frame is due. Yield how long the last one took, and the rate (FPS).
@@ -310,8 +306,8 @@ def paced(scene: Scene, keys: Keys) -> Iterator[tuple[float, float]]:
     After a pause or a stall the planned length counts, so that the car does not leap. The deadlines
     are absolute. If each frame simply slept for dt, the time to compute and print would be added.
     """
-    began_s = deadline_s = time.perf_counter() - 1 / scene.fps_target  # the first is due at once,
-    for due_s, fps in planned(scene):  # but for jitter
+    began_s = deadline_s = time.perf_counter() - 1 / scene.fps_target  # the first is due about now
+    for due_s, fps in planned(scene):
         deadline_s += due_s
         was_paused = keys.wait_until(deadline_s)
         if keys.why_quit:
@@ -345,7 +341,7 @@ def is_at_rest(scene: Scene, v_mps: float, last_m: deque[float]) -> bool:
     """
     side = scene.a_mps2 or last_m[-1] - (scene.left_edge_m + scene.right_edge_m) / 2
     wall_m = scene.right_edge_m if side > 0 else scene.left_edge_m
-    most_m = 0.001 * len(last_m)  # If the mean is at most 1 mm, no sum or single one exceeds this.
+    most_m = 0.001 * len(last_m)  # the sum of the distances if their mean is 1 mm
     return (abs(last_m[-1] - wall_m) <= most_m and len(last_m) == last_m.maxlen
             and abs(v_mps) <= abs(scene.a_mps2) * len(last_m) / scene.fps_target
             and sum(abs(x_m - wall_m) for x_m in last_m) <= most_m)
@@ -358,7 +354,7 @@ def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None
     last_m = deque[float](maxlen=max(10, round(scene.fps_target / 3)))  # 1/3 s, at least 10
     frame, t_s, why = 0, 0.0, "that is the frame limit"
     beats = paced(scene, keys) if keys else planned(scene)
-    for frame, (length_s, fps) in zip(range(1, max_frames + 1), beats):  # range ends without a wait
+    for frame, (length_s, fps) in zip(range(1, max_frames + 1), beats):  # no wait after the last
         # Move the car and settle its collision; then do the same for the other cars, if any.
         dt_s = length_s if scene.use_observed_dt else 1 / scene.fps_target
         t_s += dt_s
@@ -378,7 +374,6 @@ def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None
     if keys:
         why = keys.why_quit or why
     print(f"Stopped after {frame} frame{'s' * (frame != 1)}, t = {t_s:.2f} s: {why}.", flush=True)
-
 
 # ==== 7. The law of the hops ====================================================================
 # A car hops on the wall that it is pulled to. Think of this wall as a floor: up is away from it.
@@ -405,18 +400,19 @@ def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None
 #     (1)  u + w = hop g dt      0.8 + 1.0 = 9 * 0.2
 # How much larger is w than u? A bounce is found late, by a part of a frame. Call this part the lag:
 # on average it is 1/2. During the lag the car falls below the floor and gains lag g dt. So at the
-# floor its speed was w - lag g dt (0.9). With the exact motion it left the floor at the same speed.
-#     rebound:   The hop before ended about lag w dt deep. The rebound puts the car CR times as
-#                high, and makes u CR times that w. So this hop begins about lag u dt high (0.04).
-#                To have u there, a car must leave the floor with u + lag g dt (0.9). So w - u is
-#                2 lag g dt, on average g dt.
+# floor its speed was w - lag g dt (about 0.9). With the exact motion it left the floor as fast.
 #     surface:   The hop begins on the floor, with u. So w - u is lag g dt, on average g dt/2.
+#     rebound:   The hop before ended about lag w dt deep. The rebound puts the car CR times as far
+#                above the floor, and u is CR times that w. So this hop begins about lag u dt high
+#                (0.04). To have u there, the car must leave the floor with u + lag g dt (about
+#                0.9). So w - u has two lags, one from each end of the hop: on average it is g dt.
 #     none:      If CR = 1, the hop begins as deep as the one before it ended. So w - u is 0.
-#     conserve:  It keeps E on its way to the floor and off it. So let u and w here be the speeds
-#                at the floor. Then w - u is 0, and (1) holds on average: the frames that lie
-#                between are not quite a whole number.
-# An Euler motion also changes v^2/2, in each frame by m g^2 dt^2/2. (Section 1; m is its number.)
-# In the whole hop (w^2 - u^2)/2 grows by hop m g^2 dt^2/2, and so, by (1), w - u by m g dt. In all,
+#     conserve:  It works out the speeds at the floor. Let these be u and w here: then w - u is 0.
+#                The time between them is only on average a whole number of frames, so (1) holds on
+#                average.
+# An Euler motion also changes E, in each frame by m g^2 dt^2/2, where m is the motion's number (see
+# section 1). So in the whole hop (w^2 - u^2)/2 grows by hop m g^2 dt^2/2. Divide this by (1): w - u
+# grows by m g dt. In all,
 #     (2)  w - u = k g dt        1.0 - 0.8 = 1 * 0.2
 # So w is (hop + k) g dt/2 and u is (hop - k) g dt/2. The next u is CR w, and (next - k) g dt/2 too:
 # next - k = CR (hop + k). This is the law. With equal frames, from most starts, it leads to this:
@@ -424,17 +420,17 @@ def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None
 #         the car meets the other wall. If k < 0, they shrink until the car rests (with the
 #         correction none, until it is caught). If k = 0, they keep their length, or wander.
 #     CR < 1, k > 0: A hop of n = k (1 + CR)/(1 - CR) lines should repeat. Longer hops shrink to
-#         about n. Shorter ones grow, or repeat as they are. For if all bounces have one lag other
-#         than 1/2, k is another (with surface the lag, with rebound twice the lag), and so is n.
-#     CR < 1, k <= 0: The car comes to rest. Only with backward + rebound it may hop on: its k is
-#         2 lag - 1, at most 1, so its hops have fewer than (1 + CR)/(1 - CR) lines.
-# Counted at CR = 0.9: how long hops of 30 to 90 lines are in the end, without the rarest 2 of 100
-# starts. (Rest: a bounce in every line, at most some mm off the wall. With surface: above n.)
+#         about n. Shorter ones grow, or repeat as they are. Why only about n? If all bounces have
+#         one lag, and it is not 1/2, k is another: with exact + surface it is this lag, with exact
+#         + rebound twice this lag. And with k, n is another.
+#     CR < 1, k <= 0: The car comes to rest. Only backward + rebound may hop on: with one lag, its
+#         k is 2 lag - 1, so below 1, and its hops have fewer than (1 + CR)/(1 - CR) lines.
+# The table was counted at CR = 0.9. From 98 of 100 starts, hops of 30 to 90 lines end like this:
+# (Rest is a bounce in every line, some mm from the wall. With surface, n is 28.5 and 9.5.)
 #                   + surface     + rebound            + conserve
 #     forward       29 to 37      33 to 48             18 and 19 lines
 #     exact         10 to 18      14 to 30             rest
 #     backward      rest          rest or up to 16     rest
-
 
 # ==== 8. What film, chart and map share in printing =============================================
 
@@ -455,7 +451,6 @@ def say(text: str, indent: int = 0) -> None:
     width = min(100, shutil.get_terminal_size().columns)
     print(textwrap.fill(text, width, subsequent_indent=" " * indent), flush=True)
 
-
 # ==== 9. Speed against accuracy: the chart ======================================================
 
 SPAN_S, CUTS = 20, 10  # of chart and map: simulated seconds, runs of each method
@@ -470,8 +465,8 @@ def simulate(scene: Scene, fps: int, cut: int) -> Iterator[tuple[float, ...]]:
     """Run for SPAN_S. Every 0.1 s, or frame if longer, yield x_m, v_mps and the true two.
 
     At which moment of a frame the car meets a wall is luck. So cut 0 begins at the scene's start,
-    cuts 1 to 9 (cut - 2/3)/9 of a frame later, at the true state of that moment. At cut/9 the last
-    one would meet walls as cut 0 does. The truth takes a single step, so no error adds up.
+    and cuts 1 to 9 begin later, at the true state of that moment. They are a ninth of a frame
+    apart, but none begins a whole frame later: it would meet the walls as cut 0 does.
     """
     truth = truth_of(scene)
     shift_s = (cut - 2 / 3) / (CUTS - 1) / fps if cut else 0.0
@@ -511,7 +506,7 @@ def table(scene: Scene) -> Points:
             points[letter].append((error_m, us))
             row += f"{error_m:9.1e}{two_digits(us):>6}"
         print(row, flush=True)
-    print(f"From {CHART_FPS[-4]} FPS on twice the rate divides errors by (first order 2, second 4)")
+    print(f"Twice the rate divides errors by (first order 2, second 4; from {CHART_FPS[-4]} FPS)")
     orders = (f"{(series[-4][0] / series[-1][0])**(1 / 3):.1f}" if series[-1][0] > 1e-9 else "-"
               for series in points.values())  # three doublings apart; the rest is round-off
     print("    " + "".join(f"{order:>9}{'':6}" for order in orders) + "\n")
@@ -596,7 +591,6 @@ def chart(scene: Scene, heading: str, file: str | None) -> None:
             raise BadInput(f"--save {file!r}: {str(fault) or repr(fault)}") from fault
         print(f"\nSaved as {file!a}.")
 
-
 # ==== 10. Where methods fail: the stability map =================================================
 
 MAP_FPS = (1, 2, 5, 10, 30, 60, 120, 240, 1000)  # at most 10, or multiples of it
@@ -657,9 +651,8 @@ def stability(scene: Scene, whose: str, heading: str) -> None:
     say(f"Within a pixel in all ten runs: {'; '.join(told)}.")
     if scene.a_mps2:
         say("By the law of the hops (examples 19, 20; section 7 of airtrack.py), long hops on one "
-            "wall gain energy by surface, rebound or conserve if k > 0, lose if k < 0." if
-            scene.CR == 1 else "At CR < 1 a G car hops on, or is on its wall with too large a v.")
-
+            "wall gain energy with surface, rebound or conserve if k > 0, lose if k < 0." if
+            scene.CR == 1 else "At CR < 1 a G car hops on, or lies on its wall with too large a v.")
 
 # ==== 11. Checking a scene ======================================================================
 
@@ -696,7 +689,6 @@ def check(scene: Scene) -> None:
                            "motion=exact, or another correction")
         if scene.x_m != scene.to_track(scene.x_m):
             raise BadInput(f"x_m must be from {left_m} to {right_m} {with_it}, not {scene.x_m}")
-
 
 # ==== 12. The command line ======================================================================
 
@@ -746,27 +738,31 @@ def tell_of_walls(scene: Scene) -> None:
         enough = math.floor(1000 * (scene.width_px - 1) / scene.right_edge_m) / 1000
         say(f"The picture ends before a wall: m_to_px={enough:g} would show both.")
 
-def account(scene: Scene, until_s: float) -> str:
-    """What a film shows until then. It runs the scene again, with the steps that were planned."""
-    x_m, v_mps, t_s, bounces, turns_m = scene.x_m, scene.v_mps, 0.0, list[int](), list[str]()
-    for frame, (length_s, _) in enumerate(planned(scene), 1):
-        dt_s = length_s if scene.use_observed_dt else 1 / scene.fps_target
-        t_s += dt_s
-        if t_s > until_s * (1 + 1e-9):
+ACCOUNT = ("bounces", "lines per hop", "turned at x (m)", "beyond a wall", "at the end")
+
+def account(scene: Scene, until_s: float) -> tuple[str, ...]:
+    """The rows of ACCOUNT: what a film shows until then. It runs the planned frames once more."""
+    states: list[tuple[float, float, float | None]] = [(scene.x_m, scene.v_mps, None)]
+    last_m, t_s, ending = deque[float](maxlen=max(10, round(scene.fps_target / 3))), 0.0, ""
+    for length_s, _ in planned(scene):
+        t_s += (dt_s := length_s if scene.use_observed_dt else 1 / scene.fps_target)
+        if ending or t_s > until_s * (1 + 1e-9):
             break
-        was_m, was_mps = x_m, v_mps
-        x_m, v_mps, mark_m = step(scene, x_m, v_mps, dt_s)
-        if mark_m is not None:
-            bounces.append(frame)
-        elif was_mps and was_mps * v_mps <= 0:  # a turn in flight: which frame was further?
-            turns_m.append(f"{(max if was_mps > 0 else min)(was_m, x_m):.2f}")
-    apart = [str(b - a) for a, b in pairwise(bounces)]
-    for figures, last in (apart, 2), (turns_m, 1):  # the first four and the last ones are enough
+        states.append(step(scene, *states[-1][:2], dt_s))
+        last_m.append(states[-1][0])
+        ending = f"at rest at {t_s:.2f} s" * is_at_rest(scene, states[-1][1], last_m)
+    bounces = [frame for frame, (_, _, mark_m) in enumerate(states) if mark_m is not None]
+    hops = [str(b - a) for a, b in pairwise(bounces)]
+    turns_m = [f"{(max if was_mps > 0 else min)(was_m, x_m):.2f}"  # the frame that was further
+               for (was_m, was_mps, _), (x_m, v_mps, mark_m) in pairwise(states)
+               if mark_m is None and was_mps and was_mps * v_mps <= 0]
+    for figures, last in (hops, 2), (turns_m, 1):  # the first four and the last ones are enough
         figures[4:-last] = ["..."] * (len(figures) > 4 + last)
-    return (f"{len(bounces) or 'no'} bounce{'s' * (len(bounces) != 1)}"
-            + f", {', '.join(apart)} lines apart" * bool(apart)
-            + (f"; it turned at {', '.join(turns_m)} m" if turns_m else "; no turn in flight")
-            + " (about: the clock set the steps)" * scene.use_observed_dt)
+    deepest_m = max(abs(x_m - scene.to_track(x_m)) for x_m, *_ in states)
+    lately_m = sorted(last_m) or [scene.x_m]
+    return (str(len(bounces)), " ".join(hops) or "-", " ".join(turns_m) or "-",
+            f"up to {deepest_m:.3f} m" if deepest_m else "never",
+            ending or f"not at rest: {lately_m[0]:.3f} to {lately_m[-1]:.3f} m")
 
 def film(scene: Scene, number: int, title: str, options: dict[str, str]) -> int:
     """Print what to look for, leave time to guess, run, and print what was to be seen."""
@@ -793,12 +789,16 @@ def film(scene: Scene, number: int, title: str, options: dict[str, str]) -> int:
         print(flush=True)
         run(view, details, max_frames, keys)
         if keys and keys.frame and not keys.status:
-            usual, shown = account(as_it_is, keys.t_s), account(scene, keys.t_s)
-            if is_changed:
-                say(f"As it is, in the same {keys.t_s:.2f} s: {usual}.")
-                say(f"Changed: {shown if shown != usual else 'no figure differs'}.")
-            else:
-                say(example.seen if number in EXAMPLES else f"Your film: {shown}. {example.seen}")
+            films = {"as it is": as_it_is, "changed": scene} if is_changed else {"your film": scene}
+            shown = [(name, *account(films[name], keys.t_s)) for name in films]
+            about = " about" * scene.use_observed_dt  # the clock set the steps
+            for row, *cells in zip((f"in{about} {keys.t_s:.2f} s", *ACCOUNT), *shown):
+                if is_changed or number not in EXAMPLES:
+                    print(f"{row:16} " + " ".join(f"{cell:31}" for cell in cells).rstrip())
+            if not is_changed:
+                say(example.seen)
+            elif shown[0][1:] == shown[1][1:]:
+                print("No figure differs.")
             following = number + 1 if number + 1 in EXAMPLES else "chart"
             if number in EXAMPLES and keys.where():
                 print(f"Next: {PYTHON} airtrack.py {following}", flush=True)
@@ -874,7 +874,7 @@ def obey(words: list[str]) -> int:
             raise BadInput(f"{option} is for {OPTIONS[option]}, not for {command}")
     example = EXAMPLES.get(number, OWN_SCENE)
     methods = {"motion": "exact", "correction": "none"} if command in COMMANDS else {}
-    for name in methods.keys() & changes:  # chart and map set both, but a wrong word is told
+    for name in methods.keys() & changes:  # chart and map set both, but refuse a wrong one
         Scene(**{"motion": "exact", name: changes[name]})
     scene = Scene(**(example.settings | changes | methods))
     changed = "".join(f", {name}={value}" for name, value in changes.items())

@@ -193,9 +193,8 @@ EXAMPLES = {
         "and what does the *? End the film with x.",
         "By frame 3 the o has bounced off the right wall. The * has turned without a bounce, and "
         "in frame 4 they are about 0.4 m apart. In frame 3 the move goes 1 cm beyond the wall and "
-        "comes back before it ends. So no collision is found: a missed event. Any method that "
-        "looks only at the two ends of a step may miss one. With correction=replay the * stays on "
-        "the o."),
+        "comes back before it ends. So no collision is found: a missed event. A method that looks "
+        "only at both ends of a step may miss one. With correction=replay the * stays on the o."),
     19: Example("Elastic hops, counted", {
         "x_m": 0.84, "v_mps": 0.098, "a_mps2": -2.0, "CR": 1.0, "correction": "surface",
         "fps_target": 10.0, "show_exact_mark": True},
@@ -243,8 +242,8 @@ EXAMPLES = {
 }
 OWN_SCENE = Example("Your own scene", {},
     "How far does the car get from each wall? Does it come to rest?",
-    "To go on, change one setting at a time; -h lists them all. If the car hops on and should come "
-    "to rest, add motion=exact correction=conserve. Films 19 and 20 say why.")
+    "If the car should be at rest by now and is not, add motion=exact correction=conserve: films "
+    "19 and 20 say why. Otherwise change one setting, and look again. -h lists them all.")
 
 
 # ==== The terminal's keys =======================================================================

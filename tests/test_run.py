@@ -10,7 +10,7 @@ from itertools import islice, pairwise
 import pytest
 
 import examples
-from airtrack import PYTHON, Scene, is_at_rest, main, planned
+from airtrack import ACCOUNT, PYTHON, Scene, is_at_rest, main, planned
 from clock import Clock, positions_m
 from examples import EXAMPLES
 from films import details, film
@@ -320,8 +320,7 @@ def test_after_the_film_it_is_told_what_was_to_be_seen(
         question = f"What differs from example {number} as it is?"
         assert example.seen not in before
         assert f". {question if is_changed else example.look_for} It begins" in before
-        starts = "As it is, in the same " if is_changed else "Your film: " if number == 99 else ""
-        assert after.startswith(starts or example.seen)
+        assert after.startswith("in " if is_changed or number == 99 else example.seen)
         assert after.endswith("" if is_changed else example.seen)
     monkeypatch.setattr("sys.stdout.isatty", lambda: True)  # of 80 columns: no change to the scene
     assert EXAMPLES[10].seen in " ".join(play("10", t4="x").split())
@@ -329,65 +328,92 @@ def test_after_the_film_it_is_told_what_was_to_be_seen(
     assert ending(play("10 --frames 9 --fast")).startswith("Stopped after 9 frames")
 
 
-def plainly(words: str, until_s: float, capsys: Capture) -> str:
+def told(out: str) -> dict[str, list[str]]:
+    """The account that a film's output ends with: the cells of each row."""
+    rows = [re.split(" {2,}", line[17:]) for line in out.splitlines()
+            if line[:16].rstrip() in ACCOUNT]
+    return dict(zip(ACCOUNT, rows, strict=True))
+
+
+def plainly(words: str, until_s: float, capsys: Capture) -> list[str]:
     """The account of a car that hops on one wall, from the details that its film prints."""
     example, *changes = words.split()
     settings = EXAMPLES[int(example)].settings if int(example) in EXAMPLES else {}
     scene = Scene(**settings | {name: float(value) for name, value in (
-        change.split("=") for change in changes)})
+        change.split("=") for change in changes if change[-1].isdigit())})
     side, frames = (1 if scene.a_mps2 > 0 else -1), int(until_s * scene.fps_target + 1e-6)
-    lines = film(capsys, *words.split(), "d", "--frames", str(frames), "auto_off=False").lines
-    xs, vs = zip(*[(scene.x_m, scene.v_mps), *map(details, lines)], strict=True)
+    shown = film(capsys, *words.split(), "d", "--frames", str(frames))
+    xs, vs = zip(*[(scene.x_m, scene.v_mps), *map(details, shown.lines)], strict=True)
     gained = scene.a_mps2 / scene.fps_target  # by v in a line without a bounce
     bounces = [n for n in range(1, len(vs)) if abs(vs[n] - vs[n - 1] - gained) > 0.011]
-    told = f"{len(bounces) or 'no'} bounce{'' if len(bounces) == 1 else 's'}"
-    apart = [str(b - a) for a, b in pairwise(bounces)]
-    if apart:
-        some = [*apart[:4], "...", *apart[-2:]] if len(apart) > 6 else apart
-        told += f", {', '.join(some)} lines apart"
+    hops = [str(b - a) for a, b in pairwise(bounces)]
+    some = [*hops[:4], "...", *hops[-2:]] if len(hops) > 6 else hops
     highest = [f"{max(xs[a:b]) if side < 0 else min(xs[a:b]):.2f}"
                for a, b in pairwise([0, *bounces, len(xs)]) if side * vs[a] < 0 < side * vs[b - 1]]
-    some = [*highest[:4], "...", highest[-1]] if len(highest) > 5 else highest
-    return told + (f"; it turned at {', '.join(some)} m" if highest else "; no turn in flight")
+    turns = [*highest[:4], "...", highest[-1]] if len(highest) > 5 else highest
+    beyond_m = max(0.0, 0.25 - min(xs), max(xs) - 2.2)
+    last_m = xs[-max(10, round(scene.fps_target / 3)):]
+    t_s = re.findall("t = (.* s): the car is at rest", shown.ending)
+    return [str(len(bounces)), " ".join(some) or "-", " ".join(turns) or "-",
+            f"up to {beyond_m:.3f} m" if beyond_m else "never", f"at rest at {t_s[0]}" if t_s else
+            f"not at rest: {min(last_m):.3f} to {max(last_m):.3f} m"]
+
+
+def assert_same(cell: str, plain: str) -> None:
+    """The same words; the same figures, of which a film's details show two digits."""
+    figures, shown = ([float(number) for number in re.findall("[0-9.]*[0-9]", text)]
+                      for text in (cell, plain))
+    assert re.sub("[0-9]", "", cell) == re.sub("[0-9]", "", plain)
+    assert figures == pytest.approx(shown, abs=0.0051)
 
 
 @pytest.mark.parametrize(("words", "frames"), [
     ("8 CR=0.9", 200), ("8 fps_target=20", 223), ("5 CR=0.4 fps_target=10", 79),
-    ("20 CR=0.95", 140), ("10 CR=0.3", 20), ("10 x_m=1.5", 13), ("8 CR=0.99", 80)])
+    ("20 CR=0.95", 140), ("10 CR=0.3", 20), ("10 x_m=1.5", 13), ("8 CR=0.99", 80),
+    ("3 correction=rebound", 240)])
 def test_after_a_changed_film_its_account_stands_beside_that_of_the_example_as_it_is(
         words: str, frames: int, play: Play, capsys: Capture) -> None:
-    out = play(f"{words} --frames {frames} auto_off=False")
-    t_s = float(re.findall("frames, t = ([0-9.]+) s", ending(out))[0])
+    out = play(f"{words} --frames {frames}")
+    t_s = float(re.findall("frames?, t = ([0-9.]+) s", ending(out))[0])
+    assert f"\n{f'in {t_s:.2f} s':17}{'as it is':32}changed\n{ACCOUNT[0]}" in out
     usual, changed = (plainly(asked, t_s, capsys) for asked in (words.split()[0], words))
-    assert " ".join(out.split()).partition(" frame limit. ")[2] == (
-        f"As it is, in the same {t_s:.2f} s: {usual}. Changed: {changed}.")
+    for cells, *plain in zip(told(out).values(), usual, changed, strict=True):
+        assert len(cells) == 2
+        for cell, text in zip(cells, plain, strict=True):
+            assert_same(cell, text)
 
 
 def test_the_account_of_one_s_own_film_stands_before_what_to_do_next(
         play: Play, capsys: Capture) -> None:
-    def told(words: str, **keys: str) -> str:
+    def account(words: str, **keys: str) -> list[str]:
         out = play(words, **keys)
-        assert out.endswith(examples.OWN_SCENE.seen.split()[-1] + "\n")
-        return " ".join(out.split()).partition(" Your film: ")[2].partition(" To go on, ")[0]
+        assert " ".join(out.split()).endswith(examples.OWN_SCENE.seen)
+        assert re.search(r"\nin +[0-9.]+ s +your film\n", out)
+        return [cell for cell, in told(out).values()]
 
-    ball = "99 x_m=2.25 a_mps2=-9.81 right_edge_m=3 CR=0.9"
-    assert told(ball, t15="x") == f"{plainly(ball, 12.0, capsys)}."
-    assert "34, 30, 26, 23, ..., 2, 2 lines apart" in told(ball, t15="x")
-    assert told("99 --frames 30") == "no bounces; no turn in flight."
-    assert told("99 v_mps=1 --frames 40") == "1 bounce; no turn in flight."
+    ball = "99 x_m=2.19 a_mps2=-9.81 CR=0.9"
+    for cell, plain in zip(account(ball, t15="x"), plainly(ball, 12.0, capsys), strict=True):
+        assert_same(cell, plain)
+    assert account("99 x_m=2.25 a_mps2=-9.81 right_edge_m=3 CR=0.9", t15="x")[1] == (
+        "34 30 26 23 ... 2 2")
+    assert account("99 --frames 30") == [
+        "0", "-", "-", "never", "not at rest: 1.100 to 1.100 m"]
+    assert account("99 v_mps=1 --frames 40")[:3] == ["1", "-", "-"]
     # v is 0 at the end of a frame: one turn, and not two.
-    words = "99 v_mps=1 a_mps2=-2 fps_target=4 --frames 4"
-    assert told(words) == "no bounces; it turned at 1.23 m."
+    assert account("99 v_mps=1 a_mps2=-2 fps_target=4 --frames 4")[:3] == ["0", "-", "1.23"]
     # It ends by itself, at rest, where it bounces in every line.
-    assert told("99 x_m=0.25 a_mps2=-2 CR=0") == (
-        "10 bounces, 1, 1, 1, 1, ..., 1, 1 lines apart; no turn in flight.")
+    assert account("99 x_m=0.25 a_mps2=-2 CR=0") == [
+        "10", "1 1 1 1 ... 1 1", "-", "never", "at rest at 0.33 s"]
 
 
 def test_where_the_clock_sets_the_steps_the_account_says_about(play: Play) -> None:
-    out = " ".join(play("12 correction=replay").split())
-    assert out.count(" (about: the clock set the steps). ") == 1
-    assert out.endswith(" (about: the clock set the steps). Changed: no figure differs.")
-    assert "clock set" not in play("10 CR=0.5 --frames 3")
+    out = play("12 correction=replay --frames 80")
+    assert re.search(r"\nin about [0-9.]+ s +as it is +changed\n", out)
+    assert out.endswith("\nNo figure differs.\n")
+    out = play("10 fps_target=999 --frames 3")  # 10 as it is has no frame in this time
+    assert " about " not in out
+    assert {tuple(cells) for cells in told(out).values()} == {
+        ("0", "0"), ("-", "-"), ("never", "never"), 2 * ("not at rest: 2.000 to 2.000 m",)}
 
 
 # The picture and the terminal.
