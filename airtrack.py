@@ -381,10 +381,10 @@ def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None
 # one in which a bounce is found to the next such line. Then a long hop is followed, on average, by
 #     next = CR (hop + k) + k    lines, where k is the motion's number plus the correction's:
 #     forward 1    exact 0    backward -1      surface 1/2    rebound 1    conserve 0    none 0
-# (The correction none has this number only at CR = 1. Rewind and replay need no number: where they
-# are right, so is each hop.) Here is a hop with exact + rebound, so k is 1. CR is 0.8, dt is 0.1 s,
-# the pull g is 2 m/s^2, and a column is 1 cm. The hop has 9 lines, and by the law the next one has
-# 0.8 (9 + 1) + 1 = 9 again. In line 9 the move ended at the 0, with v = -1.00, before the rebound.
+# (None is 0 only at CR = 1. Rewind and replay need no number: where they are right, each hop is.)
+# Here is a hop with exact + rebound, so k is 1. CR is 0.8, dt is 0.1 s, the pull g is 2 m/s^2, and
+# a column is 1 cm. After 9 lines the law predicts 0.8 (9 + 1) + 1 = 9 again. In line 9 the move
+# ended at the 0, with v = -1.00. Then the rebound put the car where the * is, with v = 0.80.
 #     0:   0    |   *                    v =  0.80
 #     1:        |          *             v =  0.60
 #     2:        |               *        v =  0.40
@@ -407,13 +407,11 @@ def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None
 #                (0.04). To have u there, the car must leave the floor with u + lag g dt (about
 #                0.9). So w - u has two lags, one from each end of the hop: on average it is g dt.
 #     none:      If CR = 1, the hop begins as deep as the one before it ended. So w - u is 0.
-#     conserve:  It works out the speeds at the floor. Let these be u and w here: then w - u is 0.
-#                The time between them is only on average a whole number of frames, so (1) holds on
-#                average.
-# An Euler motion also changes E, in each frame by m g^2 dt^2/2, where m is the motion's number (see
-# section 1). So in the whole hop (w^2 - u^2)/2 grows by hop m g^2 dt^2/2. Divide this by (1): w - u
-# grows by m g dt. In all,
-#     (2)  w - u = k g dt        1.0 - 0.8 = 1 * 0.2
+#     conserve:  It keeps E on the way to the floor and off it. Let u and w be the speeds there: so
+#                w - u is 0. The time between them is hop dt on average, so (1) holds on average.
+# An Euler motion also changes E, in each frame by m g^2 dt^2/2. (m is its number; see section 1.)
+# So in the whole hop (w^2 - u^2)/2 grows by hop m g^2 dt^2/2. Divide by (1): w - u grows by m g dt.
+#     (2)  In all, w - u = k g dt      1.0 - 0.8 = 1 * 0.2
 # So w is (hop + k) g dt/2 and u is (hop - k) g dt/2. The next u is CR w, and (next - k) g dt/2 too:
 # next - k = CR (hop + k). This is the law. With equal frames, from most starts, it leads to this:
 #     CR = 1: On average each hop is 2 k lines longer than the one before. If k > 0, hops grow until
@@ -422,11 +420,11 @@ def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None
 #     CR < 1, k > 0: A hop of n = k (1 + CR)/(1 - CR) lines should repeat. Longer hops shrink to
 #         about n. Shorter ones grow, or repeat as they are. Why only about n? If all bounces have
 #         one lag, and it is not 1/2, k is another: with exact + surface it is this lag, with exact
-#         + rebound twice this lag. And with k, n is another.
+#         + rebound twice this lag. And so n is another: in the table, with surface, a larger one.
 #     CR < 1, k <= 0: The car comes to rest. Only backward + rebound may hop on: with one lag, its
 #         k is 2 lag - 1, so below 1, and its hops have fewer than (1 + CR)/(1 - CR) lines.
-# The table was counted at CR = 0.9. From 98 of 100 starts, hops of 30 to 90 lines end like this:
-# (Rest is a bounce in every line, some mm from the wall. With surface, n is 28.5 and 9.5.)
+# The table was counted at CR = 0.9: how hops of 30 to 90 lines end, from 98 of 100 starts. Rest is
+# a bounce in every line, up to some mm off the wall. A film may run on then.
 #                   + surface     + rebound            + conserve
 #     forward       29 to 37      33 to 48             18 and 19 lines
 #     exact         10 to 18      14 to 30             rest
@@ -738,7 +736,7 @@ def tell_of_walls(scene: Scene) -> None:
         enough = math.floor(1000 * (scene.width_px - 1) / scene.right_edge_m) / 1000
         say(f"The picture ends before a wall: m_to_px={enough:g} would show both.")
 
-ACCOUNT = ("bounces", "lines per hop", "turned at x (m)", "beyond a wall", "at the end")
+ACCOUNT = ("bounces", "lines per hop", "turned at x (m)", "beyond a wall", "rests at the end")
 
 def account(scene: Scene, until_s: float) -> tuple[str, ...]:
     """The rows of ACCOUNT: what a film shows until then. It runs the planned frames once more."""
@@ -750,7 +748,7 @@ def account(scene: Scene, until_s: float) -> tuple[str, ...]:
             break
         states.append(step(scene, *states[-1][:2], dt_s))
         last_m.append(states[-1][0])
-        ending = f"at rest at {t_s:.2f} s" * is_at_rest(scene, states[-1][1], last_m)
+        ending = f"from {t_s:.2f} s on" * is_at_rest(scene, states[-1][1], last_m)
     bounces = [frame for frame, (_, _, mark_m) in enumerate(states) if mark_m is not None]
     hops = [str(b - a) for a, b in pairwise(bounces)]
     turns_m = [f"{(max if was_mps > 0 else min)(was_m, x_m):.2f}"  # the frame that was further
@@ -762,7 +760,7 @@ def account(scene: Scene, until_s: float) -> tuple[str, ...]:
     lately_m = sorted(last_m) or [scene.x_m]
     return (str(len(bounces)), " ".join(hops) or "-", " ".join(turns_m) or "-",
             f"up to {deepest_m:.3f} m" if deepest_m else "never",
-            ending or f"not at rest: {lately_m[0]:.3f} to {lately_m[-1]:.3f} m")
+            ending or f"no: {lately_m[0]:.3f} to {lately_m[-1]:.3f} m")
 
 def film(scene: Scene, number: int, title: str, options: dict[str, str]) -> int:
     """Print what to look for, leave time to guess, run, and print what was to be seen."""

@@ -355,8 +355,8 @@ def plainly(words: str, until_s: float, capsys: Capture) -> list[str]:
     last_m = xs[-max(10, round(scene.fps_target / 3)):]
     t_s = re.findall("t = (.* s): the car is at rest", shown.ending)
     return [str(len(bounces)), " ".join(some) or "-", " ".join(turns) or "-",
-            f"up to {beyond_m:.3f} m" if beyond_m else "never", f"at rest at {t_s[0]}" if t_s else
-            f"not at rest: {min(last_m):.3f} to {max(last_m):.3f} m"]
+            f"up to {beyond_m:.3f} m" if beyond_m else "never", f"from {t_s[0]} on" if t_s else
+            f"no: {min(last_m):.3f} to {max(last_m):.3f} m"]
 
 
 def assert_same(cell: str, plain: str) -> None:
@@ -397,13 +397,13 @@ def test_the_account_of_one_s_own_film_stands_before_what_to_do_next(
     assert account("99 x_m=2.25 a_mps2=-9.81 right_edge_m=3 CR=0.9", t15="x")[1] == (
         "34 30 26 23 ... 2 2")
     assert account("99 --frames 30") == [
-        "0", "-", "-", "never", "not at rest: 1.100 to 1.100 m"]
+        "0", "-", "-", "never", "no: 1.100 to 1.100 m"]
     assert account("99 v_mps=1 --frames 40")[:3] == ["1", "-", "-"]
     # v is 0 at the end of a frame: one turn, and not two.
     assert account("99 v_mps=1 a_mps2=-2 fps_target=4 --frames 4")[:3] == ["0", "-", "1.23"]
     # It ends by itself, at rest, where it bounces in every line.
     assert account("99 x_m=0.25 a_mps2=-2 CR=0") == [
-        "10", "1 1 1 1 ... 1 1", "-", "never", "at rest at 0.33 s"]
+        "10", "1 1 1 1 ... 1 1", "-", "never", "from 0.33 s on"]
 
 
 def test_where_the_clock_sets_the_steps_the_account_says_about(play: Play) -> None:
@@ -413,7 +413,7 @@ def test_where_the_clock_sets_the_steps_the_account_says_about(play: Play) -> No
     out = play("10 fps_target=999 --frames 3")  # 10 as it is has no frame in this time
     assert " about " not in out
     assert {tuple(cells) for cells in told(out).values()} == {
-        ("0", "0"), ("-", "-"), ("never", "never"), 2 * ("not at rest: 2.000 to 2.000 m",)}
+        ("0", "0"), ("-", "-"), ("never", "never"), 2 * ("no: 2.000 to 2.000 m",)}
 
 
 # The picture and the terminal.
