@@ -78,8 +78,8 @@ def none(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> S
     """Reverse v, but leave the car beyond the wall. It may never get out.
 
     A frame later the car may still be beyond the wall. Perhaps CR < 1 has slowed it (example 3). Or
-    the way out is shorter than the way in: with backward if the pull is into the wall, with forward
-    if the pull is out of the wall. Then v is reversed again, now into the wall, and so on: caught.
+    its way out is shorter than its way in, as with backward if the pull is into the wall, and with
+    forward if it is out of the wall. Then v is reversed again, into the wall: the car is caught.
     """
     return x_m, -CR * v_mps
 
@@ -103,14 +103,14 @@ def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -
 def conserve(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Put the car where rebound does, at the speed with which it has the right energy there.
 
-    If this energy is too small to get there, put the car on the wall. With the exact motion, only
-    the moment of the bounce is wrong. This error is of second order: with half the dt it is a
-    quarter as large. But where rebound throws the car out, conserve does so, too.
+    If this energy is too small to get there, put the car on the wall. With the exact motion and one
+    bounce in the frame, only the moment of the bounce is wrong. This error is of second order: with
+    half the dt it is a quarter as large. Conserve may throw the car out, too, as rebound does.
     """
     overlap_m = x_m - wall_m
-    # Back at the wall E is the same. So the speed there has w^2 = v^2 - 2 a overlap; CR w is left.
+    # Back at the wall E is the same, and the speed w: w^2 = v^2 - 2 a overlap. CR w remains.
     bounced_mps = CR * math.sqrt(max(0.0, v_mps * v_mps - 2 * a_mps2 * overlap_m))
-    # At its new place E is the same, too. So the speed there has u^2 = (CR w)^2 - 2 a CR overlap.
+    # At the new place E is as after the bounce, and the speed u: u^2 = (CR w)^2 - 2 a CR overlap.
     u_squared = bounced_mps * bounced_mps - 2 * a_mps2 * CR * overlap_m
     if u_squared < 0:
         return wall_m, math.copysign(bounced_mps, -overlap_m)
@@ -123,8 +123,8 @@ def arrival(d_m: float, u_mps: float, a_mps2: float) -> tuple[float, float]:
     """
     # Energy gives the speed w at the wall: w^2 = u^2 + 2 a d. (Round-off may make it negative.)
     w_mps = math.sqrt(max(0.0, u_mps * u_mps + 2 * a_mps2 * d_m))
-    # The time t follows from the mean velocity, d = (u + w)/2 t, or from w = u + a t. But u + w may
-    # be mostly round-off if u < 0, and w - u if u > 0: so u decides.
+    # The time t follows from the mean velocity, d = t (u + w)/2, or from w = u + a t. If u > 0 take
+    # the first, else the second. To subtract nearly equal numbers would leave mostly round-off.
     return (2 * d_m / (u_mps + w_mps) if u_mps > 0 else (w_mps - u_mps) / a_mps2), w_mps
 
 def rewind(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
@@ -151,7 +151,7 @@ METHODS = {"a": ("backward", "rebound"), "b": ("exact", "rebound"), "c": ("exact
 # ==== 3. The scene: all that a run starts from ==================================================
 
 def setting(default: Any, meaning: str, allowed: Any = (False, True), unit: str = "") -> Any:
-    """A row of the table below. A number is allowed from, to; otherwise these are the choices."""
+    """A row of the table below. allowed: a number's least and largest value, or all the choices."""
     return field(default=default, metadata={"meaning": meaning, "allowed": allowed, "unit": unit})
 
 @dataclass(frozen=True)
@@ -191,7 +191,7 @@ class Scene:
 def step(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> tuple[float, float, float | None]:
     """One frame of dt_s: move the car, then settle any collision. Returns x_m, v_mps, mark_m.
 
-    mark_m is None or, in a collision, where the move alone ended. It shows how deep the car was.
+    mark_m is None or, in a collision, where the move alone ended. It shows how deep it was.
     """
     free_m, free_mps = MOTIONS[scene.motion](x_m, v_mps, scene.a_mps2, dt_s)
     on_track_m = scene.to_track(free_m)  # the wall, if the move ended beyond one
@@ -211,14 +211,14 @@ GRAZE_M = 5e-11  # far more than the round-off of a position
 def replay(scene: Scene, x_m: float, v_mps: float, t_s: float) -> State:
     """Replace the move: follow the exact motion from the frame's start, from bounce to bounce.
 
-    This is right for several bounces in a frame (example 15), and for infinitely many: the tests
-    compare it with a reference of 60 digits. Think of a ball in a room. The wall that the car is
-    pulled to is the floor, the other one is the ceiling, and h is the height above the floor. If
-    the ball is on the floor and too slow for the ceiling, hops() does the rest of the frame.
+    This is right for several bounces in a frame (example 15), and even for infinitely many. The
+    tests compare it with a reference of 60 digits. Think of a ball in a room. The wall that the car
+    is pulled to is the floor, the other one is the ceiling, and h is the height above the floor. If
+    the ball is on the floor and too slow for the ceiling, hops() takes all its whole hops at once.
 
     A graze is a touch of the ceiling at almost no speed. Round-off would decide whether there is a
-    touch. So if the ball would rise less than GRAZE_M above the ceiling, there is none. With the
-    default walls, each graze that is missed makes an error of up to 4e-5 m, and these add up.
+    touch. So a ball that would rise less than GRAZE_M above the ceiling is taken not to touch it.
+    With the default walls, each such miss makes an error of up to 4e-5 m, and these errors add up.
     """
     up, floor_m = (-1, scene.right_edge_m) if scene.a_mps2 > 0 else (1, scene.left_edge_m)
     room_m, g_mps2, CR = scene.right_edge_m - scene.left_edge_m, abs(scene.a_mps2), scene.CR
@@ -244,7 +244,7 @@ def hops(v_mps: float, g_mps2: float, CR: float, t_s: float) -> tuple[float, flo
     """Take all whole hops that fit into t_s in one go. Returns the time still to fly, and v.
 
     The first hop lasts T = 2 v/g, and each hop CR times as long as the one before. So all of them,
-    infinitely many, last T (1 + CR + CR^2 + ...) = T/(1 - CR). Then, at the Zeno point, it rests.
+    infinitely many, last T (1 + CR + CR^2 + ...) = T/(1 - CR). Then comes the Zeno point: rest.
     """
     hop_s = 2 * v_mps / g_mps2
     zeno_s = hop_s / (1 - CR) if CR < 1 else math.inf
@@ -254,7 +254,7 @@ def hops(v_mps: float, g_mps2: float, CR: float, t_s: float) -> tuple[float, flo
         return 0.0, 0.0
     if CR == 1:
         return math.fmod(t_s, hop_s), v_mps
-    # n hops last zeno (1 - CR^n). log1p(y) is log(1 + y) and expm1(y) is e^y - 1, for a small y.
+    # n hops last zeno_s (1 - CR^n). log1p(y) is log(1 + y) and expm1(y) e^y - 1, precise for all y.
     n = math.floor(math.log1p(-t_s / zeno_s) / math.log(CR))
     return t_s + zeno_s * math.expm1(n * math.log(CR)), v_mps * CR**n
 
@@ -297,14 +297,14 @@ def planned(scene: Scene) -> Iterator[tuple[float, float]]:
         fraction = 0.618 * frame % 1  # from 0 to 1; the golden ratio's 0.618 spreads it evenly
         yield (1 + scene.jitter * (2 * fraction - 1)) / scene.fps_target, scene.fps_target
 
-STALL_S, STALL_FRAMES = 0.15, 1.5  # a frame longer than both is a stall, as of a dragged window
+STALL_S, STALL_FRAMES = 0.15, 1.5  # a frame longer than both is a stall: a dragged window makes one
 LATE_S = 0.02  # a delay of at most this, or of at most a frame, is made up by the next frames
 
 def paced(scene: Scene, keys: Keys) -> Iterator[tuple[float, float]]:
     """Wait until each frame is due. Yield how long the last one took, and the rate (FPS).
 
     After a pause or a stall the planned length counts, so that the car does not leap. The deadlines
-    are absolute. If each frame simply slept for dt, the time to compute and print would be added.
+    are absolute. If each frame slept for dt, its time to compute and print would be added to that.
     """
     began_s = deadline_s = time.perf_counter() - 1 / scene.fps_target  # the first is due about now
     for due_s, fps in planned(scene):
@@ -336,8 +336,8 @@ def scenes_beside(scene: Scene) -> dict[str, Scene]:
 def is_at_rest(scene: Scene, v_mps: float, last_m: deque[float]) -> bool:
     """Whether the car rests against the wall that it is pulled to or, without a pull, against any.
 
-    It does if in the last frames its mean distance from the wall is at most 1 mm, and its v at most
-    what the pull adds in that time. (A car that leans on a wall may have some v in each frame.)
+    It rests if in the last frames its mean distance from the wall is at most 1 mm, and if its v is
+    at most what the pull adds in that time. (On its wall it may have some v in each frame.)
     """
     side = scene.a_mps2 or last_m[-1] - (scene.left_edge_m + scene.right_edge_m) / 2
     wall_m = scene.right_edge_m if side > 0 else scene.left_edge_m
@@ -381,50 +381,50 @@ def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None
 # one in which a bounce is found to the next such line. Then a long hop is followed, on average, by
 #     next = CR (hop + k) + k    lines, where k is the motion's number plus the correction's:
 #     forward 1    exact 0    backward -1      surface 1/2    rebound 1    conserve 0    none 0
-# (None is 0 only at CR = 1. Rewind and replay need no number: where they are right, each hop is.)
-# Here is a hop with exact + rebound, so k is 1. CR is 0.8, dt is 0.1 s, the pull g is 2 m/s^2, and
-# a column is 1 cm. After 9 lines the law predicts 0.8 (9 + 1) + 1 = 9 again. In line 9 the move
-# ended at the 0, with v = -1.00. Then the rebound put the car where the * is, with v = 0.80.
-#     0:   0    |   *                    v =  0.80
+# (For none this holds only at CR = 1. Rewind and replay need no number: where they are right, so
+# are the hops.) Here is a hop of 9 lines with exact + rebound, so k is 1. CR is 0.8, dt is 0.1 s,
+# the pull g is 2 m/s^2, and a column is 1 cm. The law predicts 0.8 (9 + 1) + 1 = 9 lines again.
+#     0:   0    |   *                    v =  0.80    The hop begins. Call its speed upwards u.
 #     1:        |          *             v =  0.60
-#     2:        |               *        v =  0.40
-#     3:        |                  *     v =  0.20
+#     2:        |               *        v =  0.40    In each line the pull g takes g dt
+#     3:        |                  *     v =  0.20    from v. That is 0.20.
 #     4:        |                   *    v =  0.00
 #     5:        |                  *     v = -0.20
 #     6:        |               *        v = -0.40
-#     7:        |          *             v = -0.60
-#     8:        |   *                    v = -0.80
-#     9:   0    |   *                    v =  0.80
-# Why? Let u be the speed upwards with which the hop begins (0.8), and w the speed downwards with
-# which it ends, before the correction (1.0). In each frame the pull adds g dt (0.2) downwards. So
+#     7:        |          *             v = -0.60    The last move ends at the 0, below the floor,
+#     8:        |   *                    v = -0.80    with 1.00 downwards. Call this speed w.
+#     9:   0    |   *                    v =  0.80    Then comes the rebound.
+# Why this law? From u upwards to w downwards, each frame of the hop adds g dt:
 #     (1)  u + w = hop g dt      0.8 + 1.0 = 9 * 0.2
 # How much larger is w than u? A bounce is found late, by a part of a frame. Call this part the lag:
-# on average it is 1/2. During the lag the car falls below the floor and gains lag g dt. So at the
-# floor its speed was w - lag g dt (about 0.9). With the exact motion it left the floor as fast.
+# on average it is 1/2. In this time the car falls below the floor and gains lag g dt. So at the
+# floor it had w - lag g dt (about 0.9). With the exact motion it went up from the floor as fast.
 #     surface:   The hop begins on the floor, with u. So w - u is lag g dt, on average g dt/2.
-#     rebound:   The hop before ended about lag w dt deep. The rebound puts the car CR times as far
-#                above the floor, and u is CR times that w. So this hop begins about lag u dt high
-#                (0.04). To have u there, the car must leave the floor with u + lag g dt (about
-#                0.9). So w - u has two lags, one from each end of the hop: on average it is g dt.
-#     none:      If CR = 1, the hop begins as deep as the one before it ended. So w - u is 0.
-#     conserve:  It keeps E on the way to the floor and off it. Let u and w be the speeds there: so
-#                w - u is 0. The time between them is hop dt on average, so (1) holds on average.
-# An Euler motion also changes E, in each frame by m g^2 dt^2/2. (m is its number; see section 1.)
-# So in the whole hop (w^2 - u^2)/2 grows by hop m g^2 dt^2/2. Divide by (1): w - u grows by m g dt.
-#     (2)  In all, w - u = k g dt      1.0 - 0.8 = 1 * 0.2
-# So w is (hop + k) g dt/2 and u is (hop - k) g dt/2. The next u is CR w, and (next - k) g dt/2 too:
-# next - k = CR (hop + k). This is the law. With equal frames, from most starts, it leads to this:
+#     rebound:   The hop before ended with its own w, about lag w dt deep. The rebound puts the car
+#                CR times as far above the floor, and makes CR w its speed u. So the new hop begins
+#                about lag u dt high (0.04). To have u there, the car must leave the floor with
+#                u + lag g dt (about 0.9). So w - u is two lags: on average g dt.
+#     none:      If CR = 1, a hop begins, and on average ends, as deep as the one before ended. So
+#                on average w - u is 0.
+#     conserve:  It keeps E on the way to the floor and off it. Here let u and w be the speeds at
+#                the floor: w - u is 0. They are hop dt apart on average, so (1) holds on average.
+# An Euler motion also changes E, in each frame by m g^2 dt^2/2, where m is its number (section 1).
+# So (w^2 - u^2)/2 = (w - u)(w + u)/2 is larger by hop m g^2 dt^2/2, and by (1) w - u by m g dt:
+#     (2)  w - u = k g dt        1.0 - 0.8 = 1 * 0.2
+# So w is (hop + k) g dt/2 and u is (hop - k) g dt/2. The next hop has CR w as its u, and this is
+# (next - k) g dt/2. So next - k = CR (hop + k). With equal frames, from most starts, it leads to:
 #     CR = 1: On average each hop is 2 k lines longer than the one before. If k > 0, hops grow until
 #         the car meets the other wall. If k < 0, they shrink until the car rests (with the
 #         correction none, until it is caught). If k = 0, they keep their length, or wander.
-#     CR < 1, k > 0: A hop of n = k (1 + CR)/(1 - CR) lines should repeat. Longer hops shrink to
-#         about n. Shorter ones grow, or repeat as they are. Why only about n? If all bounces have
-#         one lag, and it is not 1/2, k is another: with exact + surface it is this lag, with exact
-#         + rebound twice this lag. And so n is another: in the table, with surface, a larger one.
-#     CR < 1, k <= 0: The car comes to rest. Only backward + rebound may hop on: with one lag, its
-#         k is 2 lag - 1, so below 1, and its hops have fewer than (1 + CR)/(1 - CR) lines.
-# The table was counted at CR = 0.9: how hops of 30 to 90 lines end, from 98 of 100 starts. Rest is
-# a bounce in every line, up to some mm off the wall. A film may run on then.
+#     CR < 1, k > 0: The law leaves a hop of n = k (1 + CR)/(1 - CR) lines as it is. Longer hops
+#         shrink until they are near n. Shorter ones grow, or repeat as they are. Why only near n?
+#         If a hop repeats, all its bounces have the same lag, and this may differ from 1/2. Then k
+#         is this lag with exact + surface, twice this lag with exact + rebound; n changes with k.
+#     CR < 1, k <= 0: The car comes to rest. But with its own lag, backward + rebound has 2 lag - 1
+#         as k. If this is above 0, hops of fewer than (1 + CR)/(1 - CR) lines may repeat.
+# The table says how many lines the last hops have if the first ones have 30 to 90. It was counted
+# at CR = 0.9, without the rarest 2 of 100 starts. Rest is a bounce in every line, on the wall or a
+# few mm off it: a film may run on. With surface the last lag is over 1/2, so these hops exceed n.
 #                   + surface     + rebound            + conserve
 #     forward       29 to 37      33 to 48             18 and 19 lines
 #     exact         10 to 18      14 to 30             rest
@@ -460,11 +460,11 @@ Points = dict[str, list[tuple[float, float]]]  # letter: (error_m, cost_us) at e
 cached_step = cache(step)  # all methods need the truth at the same moments
 
 def simulate(scene: Scene, fps: int, cut: int) -> Iterator[tuple[float, ...]]:
-    """Run for SPAN_S. Every 0.1 s, or frame if longer, yield x_m, v_mps and the true two.
+    """Run for SPAN_S. Every 0.1 s (or frame, if longer) yield x_m, v_mps and their true values.
 
     At which moment of a frame the car meets a wall is luck. So cut 0 begins at the scene's start,
     and cuts 1 to 9 begin later, at the true state of that moment. They are a ninth of a frame
-    apart, but none begins a whole frame later: it would meet the walls as cut 0 does.
+    apart. None begins a whole frame later, as that one would meet the walls as cut 0 does.
     """
     truth = truth_of(scene)
     shift_s = (cut - 2 / 3) / (CUTS - 1) / fps if cut else 0.0
@@ -506,7 +506,7 @@ def table(scene: Scene) -> Points:
         print(row, flush=True)
     print(f"Twice the rate divides errors by (first order 2, second 4; from {CHART_FPS[-4]} FPS)")
     orders = (f"{(series[-4][0] / series[-1][0])**(1 / 3):.1f}" if series[-1][0] > 1e-9 else "-"
-              for series in points.values())  # three doublings apart; the rest is round-off
+              for series in points.values())  # three doublings; smaller errors are round-off
     print("    " + "".join(f"{order:>9}{'':6}" for order in orders) + "\n")
     return points
 
@@ -596,10 +596,10 @@ VERDICTS = {  # from the worst to the best
     "X": "out: further beyond a wall than the track is long",
     "S": "stuck: beyond the same wall all through the last 5 s",
     "W": "win or lose: some runs gain energy, others lose it; always a capital",
-    "G": "gain: too much energy, by over 1 % of v^2/2 at the start + |a| * track length",
-    "L": "loss: too little energy, by as much; both on average over the last 5 s",
+    "G": "gain: on average over the last 5 s it has too much energy, by over 1 %",
+    "L": "loss: on average over the last 5 s it has too little energy, by over 1 %",
     "P": "energy within 1 %, but over a drawn pixel off; at CR < 1 it may still hop",
-    "-": "within a drawn pixel of the truth at every sample"}
+    "-": "within a drawn pixel of the truth, every 0.1 s (or frame, if longer)"}
 
 def verdict(scene: Scene, fps: int, cut: int) -> str:
     """The letter of one run: the first of X, S, -, G, L and P that fits. (W needs several runs.)"""
@@ -628,7 +628,7 @@ def cell(found: set[str]) -> str:
 def stability(scene: Scene, whose: str, heading: str) -> None:
     """Print the map: a row for each method, a column for each rate, a letter for ten runs."""
     say(f"Stability. {heading} {MEASURED} Which methods are right, and from which rate on?")
-    print("\nFrom the worst to the best, judged every 0.1 s, or frame if longer:")
+    print("\nFrom the worst to the best. 100 % is v^2/2 at the start + |a| * track length:")
     for letter, meaning in VERDICTS.items():
         print(f"{inked(letter)}  {meaning}")
     print(f"\n{whose:20}" + "".join(f"{fps:6}" for fps in MAP_FPS), "FPS")
@@ -713,16 +713,15 @@ def film_in_words(scene: Scene) -> str:
     irregular = f", irregular by up to {100 * scene.jitter:g} %" if scene.jitter else ""
     observed = ", each step as long as the frame before" * scene.use_observed_dt
     return (f"{in_words(scene)} Motion {scene.motion}, correction {scene.correction}, "
-            f"{scene.fps_target:g} frames a second{irregular}{observed}.")
+            f"{scene.fps_target:g} frames a second{irregular}{observed}")
 
 def fitted(scene: Scene, details: bool) -> Scene:
     """The scene, its picture and zoom made smaller until line and details fit the terminal."""
     truth = (0.0, 0.0) if scene.show_exact_mark else None
     widest = details_text(-9999.99, -9999.99, scene.fps_target, truth) if details else ""
-    columns = shutil.get_terminal_size().columns - len(widest)
+    columns = max(10, shutil.get_terminal_size().columns - len(widest))  # 10: the least of a scene
     if columns >= scene.width_px or not sys.stdout.isatty():
         return scene
-    columns = max(10, columns)  # the least that a scene may have; likewise the zoom
     # Columns run from 0 to width - 1: what is in the last one stays in the last one.
     m_to_px = max(0.001, scene.m_to_px * (columns - 1) / (scene.width_px - 1))
     say(f"Drawn {columns} columns wide, to fit.")
@@ -736,31 +735,34 @@ def tell_of_walls(scene: Scene) -> None:
         enough = math.floor(1000 * (scene.width_px - 1) / scene.right_edge_m) / 1000
         say(f"The picture ends before a wall: m_to_px={enough:g} would show both.")
 
-ACCOUNT = ("bounces", "lines per hop", "turned at x (m)", "beyond a wall", "rests at the end")
+ACCOUNT = ("bounces", "lines in between", "turned at x (m)", "* beyond a wall", "top speed",
+           "rests by then", "x, last second")
 
-def account(scene: Scene, until_s: float) -> tuple[str, ...]:
-    """The rows of ACCOUNT: what a film shows until then. It runs the planned frames once more."""
+def account(name: str, scene: Scene, until_s: float) -> tuple[str, ...]:
+    """A heading, and the rows of ACCOUNT: what the film shows until then. It runs once more."""
     states: list[tuple[float, float, float | None]] = [(scene.x_m, scene.v_mps, None)]
-    last_m, t_s, ending = deque[float](maxlen=max(10, round(scene.fps_target / 3))), 0.0, ""
+    last_m, t_s, rests = deque[float](maxlen=max(10, round(scene.fps_target / 3))), 0.0, "no"
     for length_s, _ in planned(scene):
         t_s += (dt_s := length_s if scene.use_observed_dt else 1 / scene.fps_target)
-        if ending or t_s > until_s * (1 + 1e-9):
+        if rests != "no" or t_s > until_s * (1 + 1e-9):
             break
         states.append(step(scene, *states[-1][:2], dt_s))
         last_m.append(states[-1][0])
-        ending = f"from {t_s:.2f} s on" * is_at_rest(scene, states[-1][1], last_m)
-    bounces = [frame for frame, (_, _, mark_m) in enumerate(states) if mark_m is not None]
+        rests = f"yes, seen at {t_s:.2f} s" if is_at_rest(scene, states[-1][1], last_m) else "no"
+    bounces = {n: mark_m for n, (_, _, mark_m) in enumerate(states) if mark_m is not None}
+    left = sum(mark_m < (scene.left_edge_m + scene.right_edge_m) / 2 for mark_m in bounces.values())
     hops = [str(b - a) for a, b in pairwise(bounces)]
     turns_m = [f"{(max if was_mps > 0 else min)(was_m, x_m):.2f}"  # the frame that was further
                for (was_m, was_mps, _), (x_m, v_mps, mark_m) in pairwise(states)
                if mark_m is None and was_mps and was_mps * v_mps <= 0]
     for figures, last in (hops, 2), (turns_m, 1):  # the first four and the last ones are enough
         figures[4:-last] = ["..."] * (len(figures) > 4 + last)
-    deepest_m = max(abs(x_m - scene.to_track(x_m)) for x_m, *_ in states)
-    lately_m = sorted(last_m) or [scene.x_m]
-    return (str(len(bounces)), " ".join(hops) or "-", " ".join(turns_m) or "-",
-            f"up to {deepest_m:.3f} m" if deepest_m else "never",
-            ending or f"no: {lately_m[0]:.3f} to {lately_m[-1]:.3f} m")
+    xs, vs, _ = zip(*states)
+    deepest_m, late_m = max(abs(x_m - scene.to_track(x_m)) for x_m in xs), xs[-1 - round(1 / dt_s):]
+    return (f"{name}, {scene.fps_target:g} FPS", f"{left} left, {len(bounces) - left} right",
+            " ".join(hops) or "-", " ".join(turns_m) or "nowhere",
+            f"up to {deepest_m:.3f} m" if deepest_m else "never", f"{max(map(abs, vs)):.2f} m/s",
+            rests, f"{min(late_m):.3f} to {max(late_m):.3f} m")
 
 def film(scene: Scene, number: int, title: str, options: dict[str, str]) -> int:
     """Print what to look for, leave time to guess, run, and print what was to be seen."""
@@ -769,10 +771,8 @@ def film(scene: Scene, number: int, title: str, options: dict[str, str]) -> int:
     max_frames = value_of(int, options.get("--frames", "50000"))
     if not isinstance(max_frames, int) or max_frames < 1:
         raise BadInput(f"--frames N must be a whole number from 1 up, not {max_frames!r}")
-    say(f"{title}.")
-    say(film_in_words(scene))
-    if scene.show_methods:
-        say(f"{LETTERS}.")
+    for told in (title, film_in_words(scene), *[LETTERS] * scene.show_methods):
+        say(f"{told}.")
     tell_of_walls(scene)
     view = fitted(scene, details)
     as_it_is = Scene(**example.settings)
@@ -788,7 +788,7 @@ def film(scene: Scene, number: int, title: str, options: dict[str, str]) -> int:
         run(view, details, max_frames, keys)
         if keys and keys.frame and not keys.status:
             films = {"as it is": as_it_is, "changed": scene} if is_changed else {"your film": scene}
-            shown = [(name, *account(films[name], keys.t_s)) for name in films]
+            shown = [account(name, films[name], keys.t_s) for name in films]
             about = " about" * scene.use_observed_dt  # the clock set the steps
             for row, *cells in zip((f"in{about} {keys.t_s:.2f} s", *ACCOUNT), *shown):
                 if is_changed or number not in EXAMPLES:

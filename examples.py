@@ -111,12 +111,12 @@ EXAMPLES = {
     8: Example("Elastic, large steps", COARSE,
         "Now example 7 at only 10 FPS. How near to the start mark does the car come back? Watch it "
         "come back four times, then press x.",
-        "It comes back to 1.88 m, 12 cm short of the mark. The next time it reaches the mark, then "
-        "again only 1.88 m, and so on. To see why, think of the left wall as a floor. In each "
-        "frame backward Euler takes away 1 cm of height, so 26 cm in a fall and the rise after it. "
-        "The rebound gives height back: it puts the car as far above the floor as it was below, "
-        "and does not slow it. First the car was 7 cm below: 2 * 7 = 14 cm, 12 too few. The next "
-        "time it was 19 cm below: 2 * 19 = 38 cm, 12 too many."),
+        "Only to 1.88 m, 12 cm short of the mark. The next time it reaches the mark, then again "
+        "only 1.88 m, and so on. Think of the left wall as a floor. In each frame backward Euler "
+        "takes away 1 cm of height, so 26 cm in a fall and the rise after it. The rebound gives "
+        "height back: it puts the car as far above the floor as it was below, and does not slow "
+        "it. First it was 7 cm below: 2 * 7 = 14 cm, 12 too few. Then it was 19 cm below: 2 * 19 = "
+        "38 cm, 12 too many."),
     9: Example("Elastic, large and irregular steps", COARSE | IRREGULAR,
         "Example 8 with irregular frames: each is up to a quarter longer or shorter. How near to "
         "the start mark does the car come back? Press x after 30 s.",
@@ -183,9 +183,9 @@ EXAMPLES = {
         "The * stays on the o until the first bounce, in frame 14. After that it is wrong, by up "
         "to 1.8 m within 20 s. The motion is exact, so the error comes from the rebound. The car "
         "is pulled to the left wall. There the rebound lifts it against the pull and does not slow "
-        "it, so the car gains energy. At the right wall it is the other way round, and the car "
-        "gives some back. With correction=conserve it comes back to the start mark each time, and "
-        "for 20 s it stays within 10 cm of the o. With correction=rewind it stays on the o."),
+        "it, so the car gains energy. At the right wall it gives some back. With "
+        "correction=conserve it comes back to the start mark each time, and stays within 10 cm of "
+        "the o for 20 s. With correction=rewind it stays on the o."),
     18: Example("The exact solution at 4 FPS", {
         "x_m": 0.65, "v_mps": 5.0, "a_mps2": -8.0, "CR": 1.0, "motion": "exact",
         "correction": "rewind", "fps_target": 4.0, "show_exact_mark": True},
@@ -200,13 +200,12 @@ EXAMPLES = {
         "fps_target": 10.0, "show_exact_mark": True},
         "No speed is lost in a bounce. Count lines from bounce to bounce: how long is each hop of "
         "the *, beside the one before? (In 19 d, v falls by 0.20 a line in between.)",
-        "One line shorter: the hops take 15, 14, 13 ... lines, down to 2 and 1, which are too low "
-        "to see. In frame 134 the film calls the * at rest. There is a law for this. At CR = 1 "
-        "each hop is, on average, 2 k lines longer than the one before. To get k, add the motion's "
-        "number (1 for forward, 0 for exact, -1 for backward) and the correction's (1/2 for "
-        "surface, 1 for rebound, 0 for conserve, 0 for none). Here k is -1 + 1/2 = -1/2. With "
-        "motion=exact k is 1/2, and the hops take 18, 19, 20 ... lines for half a minute, until "
-        "the * meets the right wall."),
+        "One line shorter: the hops take 15, 14, 13 ... lines, down to 2 and 1, too low to see. In "
+        "frame 134 the film calls the * at rest. By a law, each hop at CR = 1 is on average 2 k "
+        "lines longer than the one before. To get k, add the motion's number (1 for forward, 0 for "
+        "exact, -1 for backward) and the correction's (1/2 for surface, 1 for rebound, 0 for "
+        "conserve, 0 for none). Here k is -1 + 1/2 = -1/2. With motion=exact k is 1/2, and the "
+        "hops take 18, 19, 20 ... lines for half a minute, until the * meets the right wall."),
     20: Example("Hops that lose speed, counted", {
         "x_m": 0.66, "v_mps": 0.75, "a_mps2": -2.0, "CR": 0.8, "motion": "exact",
         "fps_target": 10.0, "show_exact_mark": True},
@@ -222,11 +221,11 @@ EXAMPLES = {
         "The * is the car of example 10. Which letter leaves it first, which gets furthest away, "
         "and which two are never seen? Press x after 20 s.",
         "Letter a leaves the * first, by 1 cm in frame 1. Within 20 s it gets up to 0.9 m away. "
-        "Letters b and c are moved exactly, as the * is. They leave it only after the first "
-        "bounce, in frame 14. The rebound lifts b off the wall, against the pull, and does not "
-        "slow it. So b gets furthest away, up to 1.8 m within 20 s. Conserve lifts c, too, but "
-        "slows it by what that costs. So c stays within 10 cm for these 20 s. Letters d and e are "
-        "right, so the * always hides them. The chart shows more: other starts, and costs."),
+        "Letters b and c are moved exactly, so they leave the * only after the first bounce, in "
+        "frame 14. The rebound lifts b off the wall, against the pull, and does not slow it. So b "
+        "gets furthest away, up to 1.8 m within 20 s. Conserve lifts c, too, but slows it by what "
+        "that costs. So c stays within 10 cm for these 20 s. Letters d and e are right, so the * "
+        "always hides them. The chart shows more: other starts, and costs."),
     22: Example("The order of three lines", {
         "x_m": 1.0, "a_mps2": -10.0, "CR": 0.5, "left_edge_m": 0.0, "right_edge_m": 2.0,
         "fps_target": 60.0, "m_to_px": 1000.0, "motion": "forward", "correction": "surface",
@@ -242,8 +241,9 @@ EXAMPLES = {
 }
 OWN_SCENE = Example("Your own scene", {},
     "How far does the car get from each wall? Does it come to rest?",
-    "If the car should be at rest by now and is not, add motion=exact correction=conserve: films "
-    "19 and 20 say why. Otherwise change one setting, and look again. -h lists them all.")
+    "With a pull and CR < 1, the true car comes to rest. If yours hops on, that is the method's "
+    "fault. Add motion=exact correction=conserve: films 19 and 20 say why. One line in between "
+    "means a bounce in every line: the car lies at a wall. To go on, change a setting (see -h).")
 
 
 # ==== The terminal's keys =======================================================================

@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 
 import airtrack
-from airtrack import METHODS, MOTIONS, Scene, cell, main, verdict
+from airtrack import METHODS, MOTIONS, Scene, cell, conserve, main, verdict
 from examples import EXAMPLES
 from figures import RATES, columns, errors_m, no_measuring, plain_letter, printed, told_plainly
 from films import HERE, K, apart_m, beside_the_truth, environment
@@ -84,6 +84,7 @@ def test_the_errors_are_the_worst_of_ten_cuts_and_of_first_or_second_order(
     order = 2 if letter == "c" else 1  # half the step, a quarter of the error; or half of it
     assert 32**order < errors[2] / errors[8] < 128**order
     if (example, letter) == ("10", "c"):
+        assert "half the dt it is a quarter" in " ".join(str(conserve.__doc__).split())
         assert all(3.5 < a / b < 5.5 for a, b in pairwise(errors[5:]))
 
 

@@ -1,6 +1,7 @@
 """The main loop, on a clock that the test sets: pacing, stalls, observed dt, keys, the ends."""
 
 import io
+import math
 import re
 import signal
 from collections import deque
@@ -13,7 +14,6 @@ import examples
 from airtrack import ACCOUNT, PYTHON, Scene, is_at_rest, main, planned
 from clock import Clock, positions_m
 from examples import EXAMPLES
-from films import details, film
 
 Capture = pytest.CaptureFixture[str]
 Play = Callable[..., str]
@@ -328,92 +328,74 @@ def test_after_the_film_it_is_told_what_was_to_be_seen(
     assert ending(play("10 --frames 9 --fast")).startswith("Stopped after 9 frames")
 
 
-def told(out: str) -> dict[str, list[str]]:
+def account(out: str) -> list[list[str]]:
     """The account that a film's output ends with: the cells of each row."""
-    rows = [re.split(" {2,}", line[17:]) for line in out.splitlines()
-            if line[:16].rstrip() in ACCOUNT]
-    return dict(zip(ACCOUNT, rows, strict=True))
+    rows = [line for line in out.splitlines() if line[:16].rstrip() in ACCOUNT]
+    assert [row[:16].rstrip() for row in rows] == [*ACCOUNT]
+    return [re.split(" {2,}", row[17:]) for row in rows]
 
 
-def plainly(words: str, until_s: float, capsys: Capture) -> list[str]:
-    """The account of a car that hops on one wall, from the details that its film prints."""
-    example, *changes = words.split()
-    settings = EXAMPLES[int(example)].settings if int(example) in EXAMPLES else {}
-    scene = Scene(**settings | {name: float(value) for name, value in (
-        change.split("=") for change in changes if change[-1].isdigit())})
-    side, frames = (1 if scene.a_mps2 > 0 else -1), int(until_s * scene.fps_target + 1e-6)
-    shown = film(capsys, *words.split(), "d", "--frames", str(frames))
-    xs, vs = zip(*[(scene.x_m, scene.v_mps), *map(details, shown.lines)], strict=True)
-    gained = scene.a_mps2 / scene.fps_target  # by v in a line without a bounce
-    bounces = [n for n in range(1, len(vs)) if abs(vs[n] - vs[n - 1] - gained) > 0.011]
-    hops = [str(b - a) for a, b in pairwise(bounces)]
-    some = [*hops[:4], "...", *hops[-2:]] if len(hops) > 6 else hops
-    highest = [f"{max(xs[a:b]) if side < 0 else min(xs[a:b]):.2f}"
-               for a, b in pairwise([0, *bounces, len(xs)]) if side * vs[a] < 0 < side * vs[b - 1]]
-    turns = [*highest[:4], "...", highest[-1]] if len(highest) > 5 else highest
-    beyond_m = max(0.0, 0.25 - min(xs), max(xs) - 2.2)
-    last_m = xs[-max(10, round(scene.fps_target / 3)):]
-    t_s = re.findall("t = (.* s): the car is at rest", shown.ending)
-    return [str(len(bounces)), " ".join(some) or "-", " ".join(turns) or "-",
-            f"up to {beyond_m:.3f} m" if beyond_m else "never", f"from {t_s[0]} on" if t_s else
-            f"no: {min(last_m):.3f} to {max(last_m):.3f} m"]
+@pytest.mark.parametrize(("words", "CR", "fps", "fall_m", "seconds"), [
+    ("CR=0.9", 0.9, 10, 1.75, 15), ("CR=0.3", 0.3, 10, 1.75, 2.3), ("CR=0.99", 0.99, 10, 1.75, 7.7),
+    ("fps_target=25", 1, 25, 1.75, 19), ("x_m=1.5", 1, 10, 1.25, 1.3)])
+def test_after_a_changed_film_its_bounces_hops_and_turns_stand_beside_those_of_the_example(
+        words: str, CR: float, fps: int, fall_m: float, seconds: float, play: Play) -> None:
+    scenes = (1, 10, 1.75), (CR, fps, fall_m)
+    out = play(f"10 {words} --frames {round(seconds * fps)}")
+    heads = f"{f'in {seconds:.2f} s':17}{'as it is, 10 FPS':32}changed, {fps} FPS"
+    assert f"\n{heads}\n{ACCOUNT[0]}" in out
+    for (kept, rate, way_m), (bounces, hops, turns, beyond, top, *_) in zip(
+            scenes, zip(*account(out), strict=True), strict=True):
+        # At 2 m/s^2 the car rises or falls d in sqrt(d) s. A bounce leaves CR^2 of d.
+        found, tops_m, now_s, rise_s = list[int](), list[float](), 0.0, math.sqrt(way_m)
+        while (now_s := now_s + rise_s) <= seconds:
+            found.append(math.ceil(now_s * rate))  # the frame at whose end
+            rise_s *= kept
+            now_s += rise_s
+            tops_m += [0.25 + rise_s**2] * (math.ceil(now_s * rate) <= seconds * rate)
+        told = [str(b - a) for a, b in pairwise(found)]
+        told[4:-2] = ["..."] * (len(told) > 6)
+        tops_m[4:-1] = []
+        assert (bounces, hops, beyond) == (
+            f"{len(found)} left, 0 right", " ".join(told) or "-", "never")
+        assert float(top.removesuffix(" m/s")) == pytest.approx(2 * math.sqrt(way_m), abs=2 / rate)
+        assert [float(top) for top in re.findall("[0-9.]+[0-9]", turns)] == pytest.approx(
+            tops_m, abs=0.011)  # the higher of two frames is near the turn
 
 
-def assert_same(cell: str, plain: str) -> None:
-    """The same words; the same figures, of which a film's details show two digits."""
-    figures, shown = ([float(number) for number in re.findall("[0-9.]*[0-9]", text)]
-                      for text in (cell, plain))
-    assert re.sub("[0-9]", "", cell) == re.sub("[0-9]", "", plain)
-    assert figures == pytest.approx(shown, abs=0.0051)
-
-
-@pytest.mark.parametrize(("words", "frames"), [
-    ("8 CR=0.9", 200), ("8 fps_target=20", 223), ("5 CR=0.4 fps_target=10", 79),
-    ("20 CR=0.95", 140), ("10 CR=0.3", 20), ("10 x_m=1.5", 13), ("8 CR=0.99", 80),
-    ("3 correction=rebound", 240)])
-def test_after_a_changed_film_its_account_stands_beside_that_of_the_example_as_it_is(
-        words: str, frames: int, play: Play, capsys: Capture) -> None:
-    out = play(f"{words} --frames {frames}")
-    t_s = float(re.findall("frames?, t = ([0-9.]+) s", ending(out))[0])
-    assert f"\n{f'in {t_s:.2f} s':17}{'as it is':32}changed\n{ACCOUNT[0]}" in out
-    usual, changed = (plainly(asked, t_s, capsys) for asked in (words.split()[0], words))
-    for cells, *plain in zip(told(out).values(), usual, changed, strict=True):
-        assert len(cells) == 2
-        for cell, text in zip(cells, plain, strict=True):
-            assert_same(cell, text)
-
-
-def test_the_account_of_one_s_own_film_stands_before_what_to_do_next(
-        play: Play, capsys: Capture) -> None:
-    def account(words: str, **keys: str) -> list[str]:
-        out = play(words, **keys)
-        assert " ".join(out.split()).endswith(examples.OWN_SCENE.seen)
-        assert re.search(r"\nin +[0-9.]+ s +your film\n", out)
-        return [cell for cell, in told(out).values()]
-
-    ball = "99 x_m=2.19 a_mps2=-9.81 CR=0.9"
-    for cell, plain in zip(account(ball, t15="x"), plainly(ball, 12.0, capsys), strict=True):
-        assert_same(cell, plain)
-    assert account("99 x_m=2.25 a_mps2=-9.81 right_edge_m=3 CR=0.9", t15="x")[1] == (
-        "34 30 26 23 ... 2 2")
-    assert account("99 --frames 30") == [
-        "0", "-", "-", "never", "no: 1.100 to 1.100 m"]
-    assert account("99 v_mps=1 --frames 40")[:3] == ["1", "-", "-"]
+def test_the_account_says_how_far_beyond_a_wall_the_car_was_and_whether_it_rests(
+        play: Play) -> None:
+    *_, beyond, _, rests, lately = account(play("3 correction=surface --frames 600"))
+    assert beyond == ["up to 0.600 m", "never"]  # 0.25 + 0.35: test_examples.py
+    assert rests == ["no", "yes, seen at 5.77 s"]
+    assert lately[0].startswith("-0.350 to -0.31")  # 30 frames of 1 mm
+    assert account(play("1 jitter=0.1"))[5] == ["yes, seen at 8.37 s"] * 2
     # v is 0 at the end of a frame: one turn, and not two.
-    assert account("99 v_mps=1 a_mps2=-2 fps_target=4 --frames 4")[:3] == ["0", "-", "1.23"]
-    # It ends by itself, at rest, where it bounces in every line.
-    assert account("99 x_m=0.25 a_mps2=-2 CR=0") == [
-        "10", "1 1 1 1 ... 1 1", "-", "never", "from 0.33 s on"]
+    turned = account(play("99 v_mps=1 a_mps2=-2 fps_target=4 --frames 4"))
+    assert turned[:3] == [["0 left, 0 right"], ["-"], ["1.23"]]
+    ball = account(play("99 x_m=2.25 a_mps2=-9.81 right_edge_m=3 CR=0.9", t15="x"))
+    assert [ball[1], ball[5]] == [["34 30 26 23 ... 2 2"], ["no"]]
+
+
+def test_the_account_of_one_s_own_film_stands_before_what_to_do_next(play: Play) -> None:
+    for words, told in (
+            ("--frames 30", "0 left, 0 right - nowhere never 0.00 m/s no 1.100 to 1.100 m"),
+            ("v_mps=1 --frames 34", "0 left, 1 right - nowhere never 1.00 m/s no 1.233 to 2.200 m"),
+            ("x_m=0.25 a_mps2=-2 CR=0", "10 left, 0 right 1 1 1 1 ... 1 1 nowhere never 0.00 m/s "
+             "yes, seen at 0.33 s 0.250 to 0.250 m")):
+        out = play(f"99 {words}")
+        assert " ".join(out.split()).endswith(examples.OWN_SCENE.seen)
+        assert re.search(r"\nin +[0-9.]+ s +your film, 30 FPS\n", out)
+        assert " ".join(cell for cell, in account(out)) == told
 
 
 def test_where_the_clock_sets_the_steps_the_account_says_about(play: Play) -> None:
     out = play("12 correction=replay --frames 80")
-    assert re.search(r"\nin about [0-9.]+ s +as it is +changed\n", out)
+    assert re.search(r"\nin about [0-9.]+ s +as it is, 10 FPS +changed, 10 FPS\n", out)
     assert out.endswith("\nNo figure differs.\n")
     out = play("10 fps_target=999 --frames 3")  # 10 as it is has no frame in this time
     assert " about " not in out
-    assert {tuple(cells) for cells in told(out).values()} == {
-        ("0", "0"), ("-", "-"), ("never", "never"), 2 * ("no: 2.000 to 2.000 m",)}
+    assert account(out)[4:] == [["0.00 m/s", "0.01 m/s"], ["no"] * 2, ["2.000 to 2.000 m"] * 2]
 
 
 # The picture and the terminal.
