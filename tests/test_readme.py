@@ -19,7 +19,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 import airtrack
-from airtrack import CORRECTIONS, EVERY_CORRECTION, METHODS, MOTIONS, SETTINGS, Scene
+from airtrack import CORRECTIONS, EVERY_CORRECTION, METHODS, MOTIONS, Scene
 from examples import EXAMPLES
 from figures import RATES, errors_m, printed
 from films import HERE, README, K, details, environment, film, hops_nearby
@@ -171,13 +171,6 @@ def test_the_examples_are_those_of_the_program() -> None:
     assert rows == [
         (str(number), EXAMPLES[number].title, f"{scene.motion} + {scene.correction}",
          f"{scene.fps_target:.3g}", f"{scene.CR:g}") for number, scene in scenes.items()]
-
-
-def test_the_settings_have_the_units_and_defaults_of_the_program() -> None:
-    told = re.findall(r"^\| `(\w+)` \| .* \| (\S+)(?: (\S+))? \|$", README, re.MULTILINE)
-    assert len(told) == 11
-    assert told == [(name, str(SETTINGS[name].default), SETTINGS[name].metadata["unit"])
-                    for name, *_ in told]
 
 
 def test_the_hops_are_counted_and_predicted_as_its_tables_say() -> None:
