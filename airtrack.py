@@ -42,11 +42,11 @@ from examples import EXAMPLES, OWN_SCENE, Keys, taken_keys
 #     dt_s         the time step (s): how long a frame lasts
 #
 # The pull changes v during the frame. Euler's methods ignore this: they move the car at the same
-# velocity all through the frame. forward takes the velocity of its start, backward that of its end.
-# (For a constant a, backward Euler is the same as semi-implicit Euler.) Both are of first order:
-# with half the dt, the error after a given time is half as large. exact has no error if a is
-# constant. In free flight the car's energy should not change. Per kilogram it is E = v^2/2 - a x,
-# and each docstring says what a step does to it. (Friction would go in here: a would depend on v.)
+# velocity all through the frame, forward at that of the frame's start, backward at that of its end.
+# (For a constant a, backward is the same as semi-implicit Euler.) Both are of first order: half the
+# dt makes half the error after a given time. exact has no error if a is constant. In free flight
+# the car's energy should not change. Per kilogram it is E = v^2/2 - a x, and each docstring says
+# what a step does to it. (Friction would go in here, as an a that depends on v.)
 
 State = tuple[float, float]  # x_m, v_mps
 
@@ -78,8 +78,8 @@ def none(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> S
     """Reverse v, but leave the car beyond the wall. It may never get out.
 
     A frame later the car may still be beyond the wall. Perhaps CR < 1 has slowed it (example 3). Or
-    its way out is shorter than its way in, as with backward if the pull is into the wall, and with
-    forward if it is out of the wall. Then v is reversed again, into the wall: the car is caught.
+    the way out is shorter than the way in, as with backward under a pull towards the wall, and with
+    forward under a pull away from it. Then v is reversed again, into the wall: the car is caught.
     """
     return x_m, -CR * v_mps
 
@@ -108,9 +108,9 @@ def conserve(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) 
     half the dt it is a quarter as large. Conserve may throw the car out, too, as rebound does.
     """
     overlap_m = x_m - wall_m
-    # Back at the wall E is the same, and the speed w: w^2 = v^2 - 2 a overlap. CR w remains.
+    # On the way back to the wall E is constant: w^2 = v^2 - 2 a overlap. The bounce leaves CR w.
     bounced_mps = CR * math.sqrt(max(0.0, v_mps * v_mps - 2 * a_mps2 * overlap_m))
-    # At the new place E is as after the bounce, and the speed u: u^2 = (CR w)^2 - 2 a CR overlap.
+    # From there to the new place E is constant, too: u^2 = (CR w)^2 - 2 a CR overlap.
     u_squared = bounced_mps * bounced_mps - 2 * a_mps2 * CR * overlap_m
     if u_squared < 0:
         return wall_m, math.copysign(bounced_mps, -overlap_m)
@@ -119,20 +119,20 @@ def conserve(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) 
 def arrival(d_m: float, u_mps: float, a_mps2: float) -> tuple[float, float]:
     """When the car reaches a wall d_m ahead, and how fast it is there: t_s, w_mps.
 
-    u_mps is its speed now. Both u_mps and a_mps2 are positive towards the wall.
+    u_mps is its velocity now. Towards the wall u_mps and a_mps2 are positive, else negative.
     """
     # Energy gives the speed w at the wall: w^2 = u^2 + 2 a d. (Round-off may make it negative.)
     w_mps = math.sqrt(max(0.0, u_mps * u_mps + 2 * a_mps2 * d_m))
     # The time t follows from the mean velocity, d = t (u + w)/2, or from w = u + a t. If u > 0 take
-    # the first, else the second. To subtract nearly equal numbers would leave mostly round-off.
+    # the first, as w - u may be mostly round-off. Otherwise u + w may be, so take the second.
     return (2 * d_m / (u_mps + w_mps) if u_mps > 0 else (w_mps - u_mps) / a_mps2), w_mps
 
 def rewind(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Take the car back in time to the wall, let it bounce, and move it on to the frame's end.
 
     With the exact motion this is right if the frame holds one bounce and the move ends beyond the
-    wall (example 10). Rewind cannot settle a second bounce. If the pull brings the car back before
-    the frame ends, no collision is found and rewind is not called: a missed event (example 18).
+    wall (example 10). Rewind cannot settle a second bounce. If the pull brings the car back on the
+    track before the frame ends, no collision is found: a missed event (example 18).
     """
     # Let time run backwards: v changes its sign, a does not, and the car arrives at the wall.
     side = math.copysign(1, x_m - wall_m)  # 1 beyond the right wall, -1 beyond the left one
@@ -156,7 +156,7 @@ def setting(default: Any, meaning: str, allowed: Any = (False, True), unit: str 
 
 @dataclass(frozen=True)
 class Scene:
-    """All settings. A wrong one raises BadInput. The default method is a tutorial's (README.md)."""
+    """The settings. By default the method is the Physics Engine Tutorial's. Raises BadInput."""
 
     x_m: float = setting(1.1, "starting position", (-1000, 1000), "m")
     v_mps: float = setting(0.0, "starting velocity: speed to the right", (-1000, 1000), "m/s")
@@ -191,7 +191,7 @@ class Scene:
 def step(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> tuple[float, float, float | None]:
     """One frame of dt_s: move the car, then settle any collision. Returns x_m, v_mps, mark_m.
 
-    mark_m is None or, in a collision, where the move alone ended. It shows how deep it was.
+    mark_m is None or, in a collision, where the move alone ended: it shows how deep this was.
     """
     free_m, free_mps = MOTIONS[scene.motion](x_m, v_mps, scene.a_mps2, dt_s)
     on_track_m = scene.to_track(free_m)  # the wall, if the move ended beyond one
@@ -217,7 +217,7 @@ def replay(scene: Scene, x_m: float, v_mps: float, t_s: float) -> State:
     the ball is on the floor and too slow for the ceiling, hops() takes all its whole hops at once.
 
     A graze is a touch of the ceiling at almost no speed. Round-off would decide whether there is a
-    touch. So a ball that would rise less than GRAZE_M above the ceiling is taken not to touch it.
+    touch. So there is none if, without a ceiling, the ball would rise less than GRAZE_M above it.
     With the default walls, each such miss makes an error of up to 4e-5 m, and these errors add up.
     """
     up, floor_m = (-1, scene.right_edge_m) if scene.a_mps2 > 0 else (1, scene.left_edge_m)
@@ -254,7 +254,7 @@ def hops(v_mps: float, g_mps2: float, CR: float, t_s: float) -> tuple[float, flo
         return 0.0, 0.0
     if CR == 1:
         return math.fmod(t_s, hop_s), v_mps
-    # n hops last zeno_s (1 - CR^n). log1p(y) is log(1 + y) and expm1(y) e^y - 1, precise for all y.
+    # n hops last zeno_s (1 - CR^n). log1p(y) is log(1 + y), expm1(y) is e^y - 1, less round-off.
     n = math.floor(math.log1p(-t_s / zeno_s) / math.log(CR))
     return t_s + zeno_s * math.expm1(n * math.log(CR)), v_mps * CR**n
 
@@ -262,7 +262,7 @@ def hops(v_mps: float, g_mps2: float, CR: float, t_s: float) -> tuple[float, flo
 
 def paint(line: bytearray, mark: str, x_px: float) -> None:
     """Paint the mark in its column, over what is there, if the line has that column."""
-    column = round(x_px)  # int would round -0.9 to 0, into the picture
+    column = round(x_px)  # int would turn -0.9 into 0, in the picture
     if 0 <= column < len(line):
         line[column] = ord(mark)
 
@@ -292,19 +292,19 @@ def details_text(x_m: float, v_mps: float, fps: float, truth: State | None) -> s
 # ==== 6. The run: the main loop =================================================================
 
 def planned(scene: Scene) -> Iterator[tuple[float, float]]:
-    """Yield how long each frame should last, and the target rate (FPS). Every run gets the same."""
+    """Yield how long each frame should last, and the target rate (FPS), the same in every run."""
     for frame in count(1):
         fraction = 0.618 * frame % 1  # from 0 to 1; the golden ratio's 0.618 spreads it evenly
         yield (1 + scene.jitter * (2 * fraction - 1)) / scene.fps_target, scene.fps_target
 
-STALL_S, STALL_FRAMES = 0.15, 1.5  # a frame longer than both is a stall: a dragged window makes one
+STALL_S, STALL_FRAMES = 0.15, 1.5  # a frame longer than 0.15 s and than 1.5 times its length is one
 LATE_S = 0.02  # a delay of at most this, or of at most a frame, is made up by the next frames
 
 def paced(scene: Scene, keys: Keys) -> Iterator[tuple[float, float]]:
     """Wait until each frame is due. Yield how long the last one took, and the rate (FPS).
 
     After a pause or a stall the planned length counts, so that the car does not leap. The deadlines
-    are absolute. If each frame slept for dt, its time to compute and print would be added to that.
+    are absolute. If each frame slept for dt, it would last dt and the time to compute and print.
     """
     began_s = deadline_s = time.perf_counter() - 1 / scene.fps_target  # the first is due about now
     for due_s, fps in planned(scene):
@@ -337,7 +337,7 @@ def is_at_rest(scene: Scene, v_mps: float, last_m: deque[float]) -> bool:
     """Whether the car rests against the wall that it is pulled to or, without a pull, against any.
 
     It rests if in the last frames its mean distance from the wall is at most 1 mm, and if its v is
-    at most what the pull adds in that time. (On its wall it may have some v in each frame.)
+    at most what the pull adds in that time. (The pull may give it some v in each frame.)
     """
     side = scene.a_mps2 or last_m[-1] - (scene.left_edge_m + scene.right_edge_m) / 2
     wall_m = scene.right_edge_m if side > 0 else scene.left_edge_m
@@ -381,50 +381,50 @@ def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None
 # one in which a bounce is found to the next such line. Then a long hop is followed, on average, by
 #     next = CR (hop + k) + k    lines, where k is the motion's number plus the correction's:
 #     forward 1    exact 0    backward -1      surface 1/2    rebound 1    conserve 0    none 0
-# (For none this holds only at CR = 1. Rewind and replay need no number: where they are right, so
-# are the hops.) Here is a hop of 9 lines with exact + rebound, so k is 1. CR is 0.8, dt is 0.1 s,
-# the pull g is 2 m/s^2, and a column is 1 cm. The law predicts 0.8 (9 + 1) + 1 = 9 lines again.
-#     0:   0    |   *                    v =  0.80    The hop begins. Call its speed upwards u.
+# (The correction none has its 0 only at CR = 1. Rewind and replay need no number: where they are
+# right, so are the hops.) Here is a hop of 9 lines with exact + rebound, so k is 1. CR is 0.8, dt
+# 0.1 s, the pull g 2 m/s^2, and a column 1 cm. The law predicts 0.8 (9 + 1) + 1 = 9 lines again.
+#     0:   0    |   *                    v =  0.80    The hop begins upwards, at u = 0.80.
 #     1:        |          *             v =  0.60
-#     2:        |               *        v =  0.40    In each line the pull g takes g dt
-#     3:        |                  *     v =  0.20    from v. That is 0.20.
+#     2:        |               *        v =  0.40    In each line the pull takes g dt,
+#     3:        |                  *     v =  0.20    which is 0.20, from v.
 #     4:        |                   *    v =  0.00
 #     5:        |                  *     v = -0.20
 #     6:        |               *        v = -0.40
-#     7:        |          *             v = -0.60    The last move ends at the 0, below the floor,
-#     8:        |   *                    v = -0.80    with 1.00 downwards. Call this speed w.
-#     9:   0    |   *                    v =  0.80    Then comes the rebound.
+#     7:        |          *             v = -0.60    In line 9 the move ends at the 0, below
+#     8:        |   *                    v = -0.80    the floor, downwards at w = 1.00. Then
+#     9:   0    |   *                    v =  0.80    comes the rebound.
 # Why this law? From u upwards to w downwards, each frame of the hop adds g dt:
 #     (1)  u + w = hop g dt      0.8 + 1.0 = 9 * 0.2
 # How much larger is w than u? A bounce is found late, by a part of a frame. Call this part the lag:
 # on average it is 1/2. In this time the car falls below the floor and gains lag g dt. So at the
-# floor it had w - lag g dt (about 0.9). With the exact motion it went up from the floor as fast.
+# floor it had w - lag g dt (about 0.9). With the exact motion, it has as much there on its way up.
 #     surface:   The hop begins on the floor, with u. So w - u is lag g dt, on average g dt/2.
 #     rebound:   The hop before ended with its own w, about lag w dt deep. The rebound puts the car
-#                CR times as far above the floor, and makes CR w its speed u. So the new hop begins
-#                about lag u dt high (0.04). To have u there, the car must leave the floor with
+#                CR times as far above the floor, and u is CR times that w. So this hop begins about
+#                lag u dt high (0.04). To have u there, the car must leave the floor with
 #                u + lag g dt (about 0.9). So w - u is two lags: on average g dt.
-#     none:      If CR = 1, a hop begins, and on average ends, as deep as the one before ended. So
-#                on average w - u is 0.
+#     none:      If CR = 1, a hop begins as deep as the one before ended, and on average it ends as
+#                deep. So on average w - u is 0.
 #     conserve:  It keeps E on the way to the floor and off it. Here let u and w be the speeds at
-#                the floor: w - u is 0. They are hop dt apart on average, so (1) holds on average.
+#                the floor: w - u is 0. (The time between is hop dt, and (1) true, on average.)
 # An Euler motion also changes E, in each frame by m g^2 dt^2/2, where m is its number (section 1).
-# So (w^2 - u^2)/2 = (w - u)(w + u)/2 is larger by hop m g^2 dt^2/2, and by (1) w - u by m g dt:
+# So in the hop (w - u)(w + u)/2 gets larger by hop m g^2 dt^2/2. Divide both by (w + u)/2, which is
+# hop g dt/2: w - u gets larger by m g dt. In all,
 #     (2)  w - u = k g dt        1.0 - 0.8 = 1 * 0.2
-# So w is (hop + k) g dt/2 and u is (hop - k) g dt/2. The next hop has CR w as its u, and this is
+# By (1) and (2) w is (hop + k) g dt/2 and u is (hop - k) g dt/2. The next u is CR w. It is also
 # (next - k) g dt/2. So next - k = CR (hop + k). With equal frames, from most starts, it leads to:
 #     CR = 1: On average each hop is 2 k lines longer than the one before. If k > 0, hops grow until
 #         the car meets the other wall. If k < 0, they shrink until the car rests (with the
-#         correction none, until it is caught). If k = 0, they keep their length, or wander.
-#     CR < 1, k > 0: The law leaves a hop of n = k (1 + CR)/(1 - CR) lines as it is. Longer hops
-#         shrink until they are near n. Shorter ones grow, or repeat as they are. Why only near n?
-#         If a hop repeats, all its bounces have the same lag, and this may differ from 1/2. Then k
-#         is this lag with exact + surface, twice this lag with exact + rebound; n changes with k.
-#     CR < 1, k <= 0: The car comes to rest. But with its own lag, backward + rebound has 2 lag - 1
-#         as k. If this is above 0, hops of fewer than (1 + CR)/(1 - CR) lines may repeat.
-# The table says how many lines the last hops have if the first ones have 30 to 90. It was counted
-# at CR = 0.9, without the rarest 2 of 100 starts. Rest is a bounce in every line, on the wall or a
-# few mm off it: a film may run on. With surface the last lag is over 1/2, so these hops exceed n.
+#         correction none, until it is caught). If k = 0, they keep their length, or go up and down.
+#     CR < 1, k > 0: By the law a hop of n = k (1 + CR)/(1 - CR) lines repeats. Longer hops shrink
+#         until they have n/2 to 2 n lines. Shorter ones grow, or repeat as they are.
+#     CR < 1, k <= 0: Hops shrink until the car rests: it then bounces in every line, up to g dt^2/4
+#         (here 5 mm) off the wall, so a film may run on. Some hops of backward + rebound repeat.
+# Why may other hops than n repeat? So far the lag was 1/2. Hops that repeat all have one lag, often
+# another. With surface their k is m + lag, with rebound about m + 2 lag: up to 1 if m is -1.
+# The table was counted at CR = 0.9, where n is 19 k. It says how long hops of 30 to 90 lines are in
+# the end, without the rarest 2 of 100 ends. (With surface the last lag is over 1/2: they exceed n.)
 #                   + surface     + rebound            + conserve
 #     forward       29 to 37      33 to 48             18 and 19 lines
 #     exact         10 to 18      14 to 30             rest
@@ -464,7 +464,7 @@ def simulate(scene: Scene, fps: int, cut: int) -> Iterator[tuple[float, ...]]:
 
     At which moment of a frame the car meets a wall is luck. So cut 0 begins at the scene's start,
     and cuts 1 to 9 begin later, at the true state of that moment. They are a ninth of a frame
-    apart. None begins a whole frame later, as that one would meet the walls as cut 0 does.
+    apart. A cut that began a whole frame later would meet the walls as cut 0 does.
     """
     truth = truth_of(scene)
     shift_s = (cut - 2 / 3) / (CUTS - 1) / fps if cut else 0.0
@@ -735,20 +735,19 @@ def tell_of_walls(scene: Scene) -> None:
         enough = math.floor(1000 * (scene.width_px - 1) / scene.right_edge_m) / 1000
         say(f"The picture ends before a wall: m_to_px={enough:g} would show both.")
 
-ACCOUNT = ("bounces", "lines in between", "turned at x (m)", "* beyond a wall", "top speed",
-           "rests by then", "x, last second")
+ACCOUNT = "bounces", "lines in between", "turned at x (m)", "* beyond a wall", "top speed", "rests"
 
 def account(name: str, scene: Scene, until_s: float) -> tuple[str, ...]:
-    """A heading, and the rows of ACCOUNT: what the film shows until then. It runs once more."""
+    """A heading, and the rows of ACCOUNT: what the scene's film shows until that time."""
     states: list[tuple[float, float, float | None]] = [(scene.x_m, scene.v_mps, None)]
-    last_m, t_s, rests = deque[float](maxlen=max(10, round(scene.fps_target / 3))), 0.0, "no"
+    last_m, t_s, rests = deque[float](maxlen=max(10, round(scene.fps_target / 3))), 0.0, ""
     for length_s, _ in planned(scene):
         t_s += (dt_s := length_s if scene.use_observed_dt else 1 / scene.fps_target)
-        if rests != "no" or t_s > until_s * (1 + 1e-9):
+        if rests or t_s > until_s * (1 + 1e-9):
             break
         states.append(step(scene, *states[-1][:2], dt_s))
         last_m.append(states[-1][0])
-        rests = f"yes, seen at {t_s:.2f} s" if is_at_rest(scene, states[-1][1], last_m) else "no"
+        rests = f"yes, noticed at {t_s:.2f} s" * is_at_rest(scene, states[-1][1], last_m)
     bounces = {n: mark_m for n, (_, _, mark_m) in enumerate(states) if mark_m is not None}
     left = sum(mark_m < (scene.left_edge_m + scene.right_edge_m) / 2 for mark_m in bounces.values())
     hops = [str(b - a) for a, b in pairwise(bounces)]
@@ -758,11 +757,11 @@ def account(name: str, scene: Scene, until_s: float) -> tuple[str, ...]:
     for figures, last in (hops, 2), (turns_m, 1):  # the first four and the last ones are enough
         figures[4:-last] = ["..."] * (len(figures) > 4 + last)
     xs, vs, _ = zip(*states)
-    deepest_m, late_m = max(abs(x_m - scene.to_track(x_m)) for x_m in xs), xs[-1 - round(1 / dt_s):]
+    deepest_m, late = max(abs(x_m - scene.to_track(x_m)) for x_m in xs), vs[-1 - round(1 / dt_s):]
     return (f"{name}, {scene.fps_target:g} FPS", f"{left} left, {len(bounces) - left} right",
-            " ".join(hops) or "-", " ".join(turns_m) or "nowhere",
+            " ".join(hops) or "-", " ".join(turns_m) or "not in flight",
             f"up to {deepest_m:.3f} m" if deepest_m else "never", f"{max(map(abs, vs)):.2f} m/s",
-            rests, f"{min(late_m):.3f} to {max(late_m):.3f} m")
+            rests or f"no, still up to {max(map(abs, late)):.2f} m/s")
 
 def film(scene: Scene, number: int, title: str, options: dict[str, str]) -> int:
     """Print what to look for, leave time to guess, run, and print what was to be seen."""
@@ -793,10 +792,10 @@ def film(scene: Scene, number: int, title: str, options: dict[str, str]) -> int:
             for row, *cells in zip((f"in{about} {keys.t_s:.2f} s", *ACCOUNT), *shown):
                 if is_changed or number not in EXAMPLES:
                     print(f"{row:16} " + " ".join(f"{cell:31}" for cell in cells).rstrip())
-            if not is_changed:
-                say(example.seen)
-            elif shown[0][1:] == shown[1][1:]:
+            if is_changed and shown[0][1:] == shown[1][1:]:
                 print("No figure differs.")
+            elif not is_changed and (number in EXAMPLES or shown[0][-1].startswith("no")):
+                say(example.seen)
             following = number + 1 if number + 1 in EXAMPLES else "chart"
             if number in EXAMPLES and keys.where():
                 print(f"Next: {PYTHON} airtrack.py {following}", flush=True)
@@ -831,7 +830,7 @@ def refusal(word: str) -> BadInput:
         meaning, allowed = row.metadata["meaning"], row.metadata["allowed"]
         meanings |= dict.fromkeys(re.findall(r"\w+", meaning), f"{name}{value} ({meaning})")
         names |= {part: f"{name}={part}" for part in allowed if isinstance(part, str)}
-    near = difflib.get_close_matches(start, names, cutoff=0.7)  # at 0.6 dt would be near to d
+    near = difflib.get_close_matches(start, names, cutoff=0.7)  # with 0.6, dt would be near to d
     near = near or [name for name in names if start and name.startswith(start)]
     hint = names[near[0]] if near else meanings[start]
     hint = f"nearest: {hint}" if hint else "-h lists all"
@@ -872,12 +871,12 @@ def obey(words: list[str]) -> int:
             raise BadInput(f"{option} is for {OPTIONS[option]}, not for {command}")
     example = EXAMPLES.get(number, OWN_SCENE)
     methods = {"motion": "exact", "correction": "none"} if command in COMMANDS else {}
-    for name in methods.keys() & changes:  # chart and map set both, but refuse a wrong one
+    for name in methods.keys() & changes:  # chart and map set both; still, a wrong one is told
         Scene(**{"motion": "exact", name: changes[name]})
     scene = Scene(**(example.settings | changes | methods))
     changed = "".join(f", {name}={value}" for name, value in changes.items())
     if number not in EXAMPLES:
-        say(f"The examples are 0 to {max(EXAMPLES)}.")
+        say(f"The examples are 0 to {max(EXAMPLES)}; other numbers are yours.")
     if command not in COMMANDS:
         title = f"Example {number}: {example.title}" if number in EXAMPLES else example.title
         return film(scene, number, title + changed, given)

@@ -241,9 +241,9 @@ EXAMPLES = {
 }
 OWN_SCENE = Example("Your own scene", {},
     "How far does the car get from each wall? Does it come to rest?",
-    "With a pull and CR < 1, the true car comes to rest. If yours hops on, that is the method's "
-    "fault. Add motion=exact correction=conserve: films 19 and 20 say why. One line in between "
-    "means a bounce in every line: the car lies at a wall. To go on, change a setting (see -h).")
+    "With a pull and CR < 1 the true car comes to rest. If yours does not, even after a while, the "
+    "method is to blame. Add motion=exact correction=conserve. Films 19 and 20 say why. (One line "
+    "in between is a bounce in every line: the car lies at a wall, and still has some speed.)")
 
 
 # ==== The terminal's keys =======================================================================

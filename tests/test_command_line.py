@@ -55,7 +55,7 @@ NEAREST = {  # a word that is none: the nearest name
 MEANT = {  # a word that people say for a setting: its name
     "dt=0.1": "fps_target", "gravity=9.8": "a_mps2", "g=9.8": "a_mps2", "Pull=2": "a_mps2",
     "zoom=20": "m_to_px", "restitution=1": "CR", "speed=3": "v_mps"}
-OWN = f"The examples are 0 to {max(EXAMPLES)}. Your own scene"
+OWN = f"The examples are 0 to {max(EXAMPLES)}; other numbers are yours. Your own scene"
 HINTS = {word: f"nearest: {name}" for word, name in NEAREST.items()}
 HINTS |= {word: f"nearest: {name}=VALUE ({SETTINGS[name].metadata['meaning']})"
           for word, name in MEANT.items()}
