@@ -418,7 +418,7 @@ def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None
 #         the car meets the other wall. If k < 0, they shrink until the car rests (with the
 #         correction none, until it is caught). If k = 0, they keep their length, or go up and down.
 #     CR < 1, k > 0: By the law a hop of n = k (1 + CR)/(1 - CR) lines repeats. Longer hops shrink
-#         until they have n/2 to 2 n lines. Shorter ones grow, or repeat as they are.
+#         until they have about n/2 to 2 n lines. Shorter ones grow, or repeat as they are.
 #     CR < 1, k <= 0: Hops shrink until the car rests: it then bounces in every line, up to g dt^2/4
 #         (here 5 mm) off the wall, so a film may run on. Some hops of backward + rebound repeat.
 # Why may other hops than n repeat? So far the lag was 1/2. Hops that repeat all have one lag, often

@@ -61,7 +61,7 @@ def test_the_one_pager_is_a_page_and_shows_what_the_program_shows(capsys: Captur
 def test_a_spring_swings_on_from_wall_to_wall() -> None:
     code, old = listing("def settle("), "    v_mps += a_mps2 * dt_s\n"
     assert code.index(old) == code.index("dt_s):\n") + len("dt_s):\n")  # the first line of move
-    new, = re.findall(r"first line of `move` `(v_mps .*)`", README)
+    new, = re.findall(r"write `(v_mps .*)` as the first line of `move`", README)
     lines, _ = filmed(code.replace(old, f"    {new}\n"), 6000)
     for last in (lines[3000:4000], lines[5000:]):
         xs = [details(line)[0] for line in last]
@@ -115,10 +115,10 @@ def test_the_teacher_s_sheet_has_the_program_s_figures() -> None:
            "speed, which is {:.2f} m/s. In the next frame the pull slows it to {:.2f} m/s, so it " \
            "moves back only 1.33/30 m = {:.1f} cm.".format(*figures) in told
     told = told.translate({0xb2: "2", 0xb7: "*"})
-    for figure in (f"CR2 = {0.7**2:.2f}", f"a dt2/2 = {100 * 2 * 0.1**2 / 2:.0f} cm too far",
-                   f"a2 dt2/2 = {2**2 * 0.1**2 / 2:.2f} m2/s2", "takes a dt2/2 = 1 cm",
-                   "26 cm in a fall", "2 * 7 = 14 cm, then 2 * 19 = 38 cm", "1.8 m within 20 s",
-                   "within 10 cm",
+    for figure in (f"CR2 = {0.7**2:.2f}", f"* (0.1 s)2 = {100 * 2 * 0.1**2 / 2:.0f} cm too far",
+                   f"a2 dt2/2 = {2**2 * 0.1**2 / 2:.2f} m2/s2", "takes the same 1 cm",
+                   "take 26 frames, so this is 26 cm", "2 * 7 = 14 cm, then 2 * 19 = 38 cm",
+                   "1.8 m within 20 s", "within 10 cm", "first 14 frames with s",
                    f"{math.sqrt(1.75):.3f} s after it starts, so 0.023 s after frame 13"):
         assert figure in told  # those of 8 and 21: test_examples.py
     for letter, (motion, correction) in METHODS.items():
@@ -222,7 +222,7 @@ def test_figures_of_films_and_chart_are_what_it_says(capsys: Capture) -> None:
     assert (a[5] / a[8])**(1 / 3) == pytest.approx(2, rel=0.2)
     assert "a million million times as accurate as a is at 3840 FPS" in page
     assert round(math.log10(a[8] / d[0])) == 12  # the rest is round-off
-    assert "From 5 to 240 FPS it has a G: all ten runs gain energy" in page
+    assert "From 5 to 240 FPS it has a G: in all ten runs the car gains energy." in page
     row, = re.findall(r"(?m)^exact \+ rebound +(.*)$", listing("X out, "))
     assert row.split()[2:8] == ["G"] * 6
 

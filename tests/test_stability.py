@@ -205,7 +205,7 @@ def test_hops_that_lose_speed_end_where_section_7_says(motion: str, correction: 
         n = k * (1 + CR) / (1 - CR)
         lengths, = ends(CR, max(20, 2 * n), max(30, 3 * n), 1)
         shortest.append(min(lengths))
-        if k > 0:  # "n/2 to 2 n lines"
+        if k > 0:  # "about n/2 to 2 n lines"
             low, high = (n - 2.1, n + 1.3) if correction == "conserve" else (n / 2, 2 * n)
             assert low <= min(lengths) <= max(lengths) <= high
         elif k == 0 and correction == "rebound":
