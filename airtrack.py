@@ -42,11 +42,11 @@ from examples import EXAMPLES, OWN_SCENE, Keys, taken_keys
 #     dt_s         the time step (s): how long a frame lasts
 #
 # The pull changes v during the frame. Euler's methods ignore this: they move the car at the same
-# velocity all through the frame, forward at that of the frame's start, backward at that of its end.
+# velocity all through the frame. forward takes that of the frame's start, backward that of its end.
 # (For a constant a, backward is the same as semi-implicit Euler.) Both are of first order: half the
 # dt makes half the error after a given time. exact has no error if a is constant. In free flight
 # the car's energy should not change. Per kilogram it is E = v^2/2 - a x, and each docstring says
-# what a step does to it. (Friction would go in here, as an a that depends on v.)
+# what a step does to it. (Friction would go into these functions, as an a that depends on v.)
 
 State = tuple[float, float]  # x_m, v_mps
 
@@ -72,7 +72,7 @@ MOTIONS = {"forward": forward, "backward": backward, "exact": exact}  # name a n
 # A collision is found when a move has ended beyond a wall. A correction takes the x and v of that
 # moment, and returns the x and v after the bounce. The overlap, x - wall, is how far beyond the
 # wall the car is (it is negative at the left wall). Why "stickiness"? Without a correction the car
-# may stick in the wall: see none. Section 7 tells what becomes of a car that hops on a wall.
+# may stick in the wall: see none(). Section 7 tells what becomes of a car that hops on a wall.
 
 def none(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Reverse v, but leave the car beyond the wall. It may never get out.
@@ -108,9 +108,9 @@ def conserve(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) 
     half the dt it is a quarter as large. Conserve may throw the car out, too, as rebound does.
     """
     overlap_m = x_m - wall_m
-    # On the way back to the wall E is constant: w^2 = v^2 - 2 a overlap. The bounce leaves CR w.
+    # Take the car back to the wall. E is constant: w^2 = v^2 - 2 a overlap. The bounce leaves CR w.
     bounced_mps = CR * math.sqrt(max(0.0, v_mps * v_mps - 2 * a_mps2 * overlap_m))
-    # From there to the new place E is constant, too: u^2 = (CR w)^2 - 2 a CR overlap.
+    # Take it to its new place. E is constant again: u^2 = (CR w)^2 - 2 a CR overlap.
     u_squared = bounced_mps * bounced_mps - 2 * a_mps2 * CR * overlap_m
     if u_squared < 0:
         return wall_m, math.copysign(bounced_mps, -overlap_m)
@@ -124,7 +124,7 @@ def arrival(d_m: float, u_mps: float, a_mps2: float) -> tuple[float, float]:
     # Energy gives the speed w at the wall: w^2 = u^2 + 2 a d. (Round-off may make it negative.)
     w_mps = math.sqrt(max(0.0, u_mps * u_mps + 2 * a_mps2 * d_m))
     # The time t follows from the mean velocity, d = t (u + w)/2, or from w = u + a t. If u > 0 take
-    # the first, as w - u may be mostly round-off. Otherwise u + w may be, so take the second.
+    # the first, as w - u may be mostly round-off; else the second, as u + w may be mostly that.
     return (2 * d_m / (u_mps + w_mps) if u_mps > 0 else (w_mps - u_mps) / a_mps2), w_mps
 
 def rewind(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
@@ -156,7 +156,7 @@ def setting(default: Any, meaning: str, allowed: Any = (False, True), unit: str 
 
 @dataclass(frozen=True)
 class Scene:
-    """The settings. By default the method is the Physics Engine Tutorial's. Raises BadInput."""
+    """The settings. The default method is that of the tutorial in README.md. Raises BadInput."""
 
     x_m: float = setting(1.1, "starting position", (-1000, 1000), "m")
     v_mps: float = setting(0.0, "starting velocity: speed to the right", (-1000, 1000), "m/s")
@@ -191,7 +191,7 @@ class Scene:
 def step(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> tuple[float, float, float | None]:
     """One frame of dt_s: move the car, then settle any collision. Returns x_m, v_mps, mark_m.
 
-    mark_m is None or, in a collision, where the move alone ended: it shows how deep this was.
+    mark_m is None or, in a collision, where the move alone ended. So one sees how deep it was.
     """
     free_m, free_mps = MOTIONS[scene.motion](x_m, v_mps, scene.a_mps2, dt_s)
     on_track_m = scene.to_track(free_m)  # the wall, if the move ended beyond one
@@ -217,7 +217,7 @@ def replay(scene: Scene, x_m: float, v_mps: float, t_s: float) -> State:
     the ball is on the floor and too slow for the ceiling, hops() takes all its whole hops at once.
 
     A graze is a touch of the ceiling at almost no speed. Round-off would decide whether there is a
-    touch. So there is none if, without a ceiling, the ball would rise less than GRAZE_M above it.
+    touch. So if the ball would turn less than GRAZE_M above the ceiling, it turns without a touch.
     With the default walls, each such miss makes an error of up to 4e-5 m, and these errors add up.
     """
     up, floor_m = (-1, scene.right_edge_m) if scene.a_mps2 > 0 else (1, scene.left_edge_m)
@@ -254,7 +254,7 @@ def hops(v_mps: float, g_mps2: float, CR: float, t_s: float) -> tuple[float, flo
         return 0.0, 0.0
     if CR == 1:
         return math.fmod(t_s, hop_s), v_mps
-    # n hops last zeno_s (1 - CR^n). log1p(y) is log(1 + y), expm1(y) is e^y - 1, less round-off.
+    # n hops last zeno_s (1 - CR^n). log1p(y) is log(1 + y) and expm1(y) is e^y - 1, precisely.
     n = math.floor(math.log1p(-t_s / zeno_s) / math.log(CR))
     return t_s + zeno_s * math.expm1(n * math.log(CR)), v_mps * CR**n
 
@@ -262,7 +262,7 @@ def hops(v_mps: float, g_mps2: float, CR: float, t_s: float) -> tuple[float, flo
 
 def paint(line: bytearray, mark: str, x_px: float) -> None:
     """Paint the mark in its column, over what is there, if the line has that column."""
-    column = round(x_px)  # int would turn -0.9 into 0, in the picture
+    column = round(x_px)  # int would put -0.9 into column 0
     if 0 <= column < len(line):
         line[column] = ord(mark)
 
@@ -297,14 +297,14 @@ def planned(scene: Scene) -> Iterator[tuple[float, float]]:
         fraction = 0.618 * frame % 1  # from 0 to 1; the golden ratio's 0.618 spreads it evenly
         yield (1 + scene.jitter * (2 * fraction - 1)) / scene.fps_target, scene.fps_target
 
-STALL_S, STALL_FRAMES = 0.15, 1.5  # a frame longer than 0.15 s and than 1.5 times its length is one
+STALL_S, STALL_FRAMES = 0.15, 1.5  # a frame that takes over 0.15 s and 1.5 times its due time
 LATE_S = 0.02  # a delay of at most this, or of at most a frame, is made up by the next frames
 
 def paced(scene: Scene, keys: Keys) -> Iterator[tuple[float, float]]:
     """Wait until each frame is due. Yield how long the last one took, and the rate (FPS).
 
     After a pause or a stall the planned length counts, so that the car does not leap. The deadlines
-    are absolute. If each frame slept for dt, it would last dt and the time to compute and print.
+    are absolute. If each frame slept for dt, it would last dt plus the time to compute and print.
     """
     began_s = deadline_s = time.perf_counter() - 1 / scene.fps_target  # the first is due about now
     for due_s, fps in planned(scene):
@@ -381,50 +381,50 @@ def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None
 # one in which a bounce is found to the next such line. Then a long hop is followed, on average, by
 #     next = CR (hop + k) + k    lines, where k is the motion's number plus the correction's:
 #     forward 1    exact 0    backward -1      surface 1/2    rebound 1    conserve 0    none 0
-# (The correction none has its 0 only at CR = 1. Rewind and replay need no number: where they are
-# right, so are the hops.) Here is a hop of 9 lines with exact + rebound, so k is 1. CR is 0.8, dt
-# 0.1 s, the pull g 2 m/s^2, and a column 1 cm. The law predicts 0.8 (9 + 1) + 1 = 9 lines again.
-#     0:   0    |   *                    v =  0.80    The hop begins upwards, at u = 0.80.
+# (The correction none has this number only at CR = 1. Rewind and replay need no number: where they
+# are right, so are the hops.) Here is a hop with exact + rebound, so k is 1. It has 9 lines. By the
+# law the next one has 0.8 (9 + 1) + 1 = 9 lines again.
+#     0:   0    |   *                    v =  0.80    The hop begins upwards, at u = 0.80 m/s.
 #     1:        |          *             v =  0.60
-#     2:        |               *        v =  0.40    In each line the pull takes g dt,
-#     3:        |                  *     v =  0.20    which is 0.20, from v.
-#     4:        |                   *    v =  0.00
-#     5:        |                  *     v = -0.20
+#     2:        |               *        v =  0.40    CR is 0.8, and dt is 0.1 s.
+#     3:        |                  *     v =  0.20    A column is 1 cm.
+#     4:        |                   *    v =  0.00    The pull g is 2 m/s^2. So in each frame
+#     5:        |                  *     v = -0.20    the car gets g dt = 0.20 m/s downwards.
 #     6:        |               *        v = -0.40
-#     7:        |          *             v = -0.60    In line 9 the move ends at the 0, below
-#     8:        |   *                    v = -0.80    the floor, downwards at w = 1.00. Then
-#     9:   0    |   *                    v =  0.80    comes the rebound.
+#     7:        |          *             v = -0.60
+#     8:        |   *                    v = -0.80    The move ends at the 0 of line 9, downwards at
+#     9:   0    |   *                    v =  0.80    w = 1.00 m/s. Then comes the rebound.
 # Why this law? From u upwards to w downwards, each frame of the hop adds g dt:
 #     (1)  u + w = hop g dt      0.8 + 1.0 = 9 * 0.2
 # How much larger is w than u? A bounce is found late, by a part of a frame. Call this part the lag:
 # on average it is 1/2. In this time the car falls below the floor and gains lag g dt. So at the
-# floor it had w - lag g dt (about 0.9). With the exact motion, it has as much there on its way up.
+# floor it had w - lag g dt (about 0.9). With the exact motion it had as much there on the way up.
 #     surface:   The hop begins on the floor, with u. So w - u is lag g dt, on average g dt/2.
 #     rebound:   The hop before ended with its own w, about lag w dt deep. The rebound puts the car
 #                CR times as far above the floor, and u is CR times that w. So this hop begins about
 #                lag u dt high (0.04). To have u there, the car must leave the floor with
-#                u + lag g dt (about 0.9). So w - u is two lags: on average g dt.
-#     none:      If CR = 1, a hop begins as deep as the one before ended, and on average it ends as
-#                deep. So on average w - u is 0.
+#                u + lag g dt (about 0.9). So w - u is 2 lag g dt, on average g dt.
+#     none:      At CR = 1 a hop ends, on average, as deep as it begins. So w - u is 0 on average.
 #     conserve:  It keeps E on the way to the floor and off it. Here let u and w be the speeds at
-#                the floor: w - u is 0. (The time between is hop dt, and (1) true, on average.)
-# An Euler motion also changes E, in each frame by m g^2 dt^2/2, where m is its number (section 1).
-# So in the hop (w - u)(w + u)/2 gets larger by hop m g^2 dt^2/2. Divide both by (w + u)/2, which is
-# hop g dt/2: w - u gets larger by m g dt. In all,
+#                the floor: w - u is 0. (On average the time between is hop dt, and (1) holds.)
+# An Euler motion also changes E, in each frame by m g^2 dt^2/2, where m is the motion's number. So
+# in the hop (w - u)(w + u)/2 gets larger by hop m g^2 dt^2/2. By (1), (w + u)/2 is hop g dt/2. So
+# w - u gets larger by m g dt. In all,
 #     (2)  w - u = k g dt        1.0 - 0.8 = 1 * 0.2
 # By (1) and (2) w is (hop + k) g dt/2 and u is (hop - k) g dt/2. The next u is CR w. It is also
 # (next - k) g dt/2. So next - k = CR (hop + k). With equal frames, from most starts, it leads to:
 #     CR = 1: On average each hop is 2 k lines longer than the one before. If k > 0, hops grow until
 #         the car meets the other wall. If k < 0, they shrink until the car rests (with the
 #         correction none, until it is caught). If k = 0, they keep their length, or go up and down.
-#     CR < 1, k > 0: By the law a hop of n = k (1 + CR)/(1 - CR) lines repeats. Longer hops shrink
-#         until they have about n/2 to 2 n lines. Shorter ones grow, or repeat as they are.
-#     CR < 1, k <= 0: Hops shrink until the car rests: it then bounces in every line, up to g dt^2/4
-#         (here 5 mm) off the wall, so a film may run on. Some hops of backward + rebound repeat.
-# Why may other hops than n repeat? So far the lag was 1/2. Hops that repeat all have one lag, often
-# another. With surface their k is m + lag, with rebound about m + 2 lag: up to 1 if m is -1.
-# The table was counted at CR = 0.9, where n is 19 k. It says how long hops of 30 to 90 lines are in
-# the end, without the rarest 2 of 100 ends. (With surface the last lag is over 1/2: they exceed n.)
+#     CR < 1, k > 0: By the law, a hop of n = k (1 + CR)/(1 - CR) lines repeats. Longer hops shrink
+#         and end somewhere from n/2 to 2 n. Shorter ones grow, or repeat as they are.
+#     CR < 1, k <= 0: Hops shrink until the car rests. (With backward + rebound, some repeat.)
+# Why not all at n? The numbers 1/2 and 1 of surface and rebound are for a lag of 1/2. But if hops
+# repeat, each bounce has the same lag, and this may be another. Then the numbers are lag and 2 lag,
+# so k and n change. With backward + rebound k is 2 lag - 1: hops repeat if the lag is over 1/2.
+# Rest is a bounce in every line, up to g dt^2/4 (above, 5 mm) from the wall, and a film may run on.
+# The table was counted at CR = 0.9, where n is 19 k. Hops that begin with 30 to 90 lines end so,
+# but for the rarest 2 of 100. (With surface they end above n, so with a lag of over 1/2.)
 #                   + surface     + rebound            + conserve
 #     forward       29 to 37      33 to 48             18 and 19 lines
 #     exact         10 to 18      14 to 30             rest
@@ -504,7 +504,7 @@ def table(scene: Scene) -> Points:
             points[letter].append((error_m, us))
             row += f"{error_m:9.1e}{two_digits(us):>6}"
         print(row, flush=True)
-    print(f"Twice the rate divides errors by (first order 2, second 4; from {CHART_FPS[-4]} FPS)")
+    print(f"Twice the rate divides errors by (2: first order, 4: second; from {CHART_FPS[-4]} FPS)")
     orders = (f"{(series[-4][0] / series[-1][0])**(1 / 3):.1f}" if series[-1][0] > 1e-9 else "-"
               for series in points.values())  # three doublings; smaller errors are round-off
     print("    " + "".join(f"{order:>9}{'':6}" for order in orders) + "\n")
@@ -596,8 +596,8 @@ VERDICTS = {  # from the worst to the best
     "X": "out: further beyond a wall than the track is long",
     "S": "stuck: beyond the same wall all through the last 5 s",
     "W": "win or lose: some runs gain energy, others lose it; always a capital",
-    "G": "gain: on average over the last 5 s it has too much energy, by over 1 %",
-    "L": "loss: on average over the last 5 s it has too little energy, by over 1 %",
+    "G": "gain: on average over the last 5 s the car has over 1 % too much energy",
+    "L": "loss: on average over the last 5 s the car has over 1 % too little energy",
     "P": "energy within 1 %, but over a drawn pixel off; at CR < 1 it may still hop",
     "-": "within a drawn pixel of the truth, every 0.1 s (or frame, if longer)"}
 
@@ -735,7 +735,7 @@ def tell_of_walls(scene: Scene) -> None:
         enough = math.floor(1000 * (scene.width_px - 1) / scene.right_edge_m) / 1000
         say(f"The picture ends before a wall: m_to_px={enough:g} would show both.")
 
-ACCOUNT = "bounces", "lines in between", "turned at x (m)", "* beyond a wall", "top speed", "rests"
+ACCOUNT = "bounces", "lines apart", "turned at x (m)", "beyond a wall", "top speed", "rests"
 
 def account(name: str, scene: Scene, until_s: float) -> tuple[str, ...]:
     """A heading, and the rows of ACCOUNT: what the scene's film shows until that time."""
@@ -761,7 +761,7 @@ def account(name: str, scene: Scene, until_s: float) -> tuple[str, ...]:
     return (f"{name}, {scene.fps_target:g} FPS", f"{left} left, {len(bounces) - left} right",
             " ".join(hops) or "-", " ".join(turns_m) or "not in flight",
             f"up to {deepest_m:.3f} m" if deepest_m else "never", f"{max(map(abs, vs)):.2f} m/s",
-            rests or f"no, still up to {max(map(abs, late)):.2f} m/s")
+            rests or f"not yet, up to {max(map(abs, late)):.2f} m/s")
 
 def film(scene: Scene, number: int, title: str, options: dict[str, str]) -> int:
     """Print what to look for, leave time to guess, run, and print what was to be seen."""
@@ -787,14 +787,16 @@ def film(scene: Scene, number: int, title: str, options: dict[str, str]) -> int:
         run(view, details, max_frames, keys)
         if keys and keys.frame and not keys.status:
             films = {"as it is": as_it_is, "changed": scene} if is_changed else {"your film": scene}
-            shown = [account(name, films[name], keys.t_s) for name in films]
+            tables = [[account(f"{mark} {name}", truth_of(each) if mark == "o" else each, keys.t_s)
+                       for name, each in films.items()] for mark in "*o"[:1 + scene.show_exact_mark]
+                      if is_changed or number not in EXAMPLES]
             about = " about" * scene.use_observed_dt  # the clock set the steps
-            for row, *cells in zip((f"in{about} {keys.t_s:.2f} s", *ACCOUNT), *shown):
-                if is_changed or number not in EXAMPLES:
+            for columns in tables:
+                for row, *cells in zip((f"in{about} {keys.t_s:.2f} s", *ACCOUNT), *columns):
                     print(f"{row:16} " + " ".join(f"{cell:31}" for cell in cells).rstrip())
-            if is_changed and shown[0][1:] == shown[1][1:]:
+            if is_changed and all(usual[1:] == shown[1:] for usual, shown in tables):
                 print("No figure differs.")
-            elif not is_changed and (number in EXAMPLES or shown[0][-1].startswith("no")):
+            elif not is_changed and not (tables and tables[0][0][-1].startswith("yes")):
                 say(example.seen)
             following = number + 1 if number + 1 in EXAMPLES else "chart"
             if number in EXAMPLES and keys.where():

@@ -241,9 +241,9 @@ EXAMPLES = {
 }
 OWN_SCENE = Example("Your own scene", {},
     "How far does the car get from each wall? Does it come to rest?",
-    "With a pull and CR < 1 the true car comes to rest. If yours does not, even after a while, the "
-    "method is to blame. Add motion=exact correction=conserve. Films 19 and 20 say why. (One line "
-    "in between is a bounce in every line: the car lies at a wall, and still has some speed.)")
+    "A true car comes to rest only under a pull, and if CR < 1. If so, and if the hops do not get "
+    "shorter any more, the method is to blame: set motion=exact correction=conserve. Films 19 and "
+    "20 say why. (Where bounces are 1 line apart, the car lies at a wall, or in it.)")
 
 
 # ==== The terminal's keys =======================================================================
