@@ -19,7 +19,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 import airtrack
-from airtrack import CORRECTIONS, EVERY_CORRECTION, METHODS, MOTIONS, Scene
+from airtrack import CORRECTIONS, EVERY_CORRECTION, METHODS, MOTIONS, Scene, step
 from examples import EXAMPLES
 from figures import RATES, errors_m, printed
 from films import HERE, README, K, details, environment, film, hops_nearby
@@ -208,6 +208,22 @@ def test_the_orders_of_three_lines_are_those_of_the_loops() -> None:
     rows = re.findall(r"^\| (\w+, \w+, \w+) \| (\S+) \| It (.*)\. \|$", README, re.MULTILINE)
     assert {order: float(Fraction(k.replace("\u2212", "-"))) for order, k, _ in rows} == ORDERS
     assert [end for *_, end in rows] == ["hops for ever"] + 2 * ["comes to rest"]
+
+
+def test_the_loops_are_those_of_the_methods_that_the_page_names() -> None:
+    for parts, motion, correction in (
+            (("v -= gravity",), "backward", "surface"),
+            (("def bounce(", "bounce(-y"), "exact", "conserve")):
+        *before, loop = map(listing, parts)
+        names: dict[str, Any] = {"y": 1, "v": 0, "gravity": 10, "pull": 10, "CR": 0.5, "dt": 0.1}
+        for code in before:
+            exec(code, names)
+        scene = Scene(a_mps2=-10, left_edge_m=0, CR=0.5, motion=motion, correction=correction)
+        x_m, v_mps = 1.0, 0.0
+        for _ in range(100):
+            exec(loop, names)
+            x_m, v_mps, _ = step(scene, x_m, v_mps, 0.1)
+            assert (names["y"], names["v"]) == pytest.approx((x_m, v_mps), abs=1e-7)
 
 
 def test_figures_of_films_and_chart_are_what_it_says(capsys: Capture) -> None:
