@@ -119,7 +119,7 @@ def conserve(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) 
 def arrival(d_m: float, u_mps: float, a_mps2: float) -> tuple[float, float]:
     """When the car reaches a wall d_m ahead, and how fast it is there: t_s, w_mps.
 
-    u_mps is its velocity now. Towards the wall u_mps and a_mps2 are positive, else negative.
+    u_mps is its velocity now. u_mps and a_mps2 are positive if they point towards the wall.
     """
     # Energy gives the speed w at the wall: w^2 = u^2 + 2 a d. (Round-off may make it negative.)
     w_mps = math.sqrt(max(0.0, u_mps * u_mps + 2 * a_mps2 * d_m))
@@ -138,7 +138,7 @@ def rewind(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) ->
     side = math.copysign(1, x_m - wall_m)  # 1 beyond the right wall, -1 beyond the left one
     t_s, w_mps = arrival(abs(x_m - wall_m), side * v_mps, -side * a_mps2)
     x_m, v_mps = exact(wall_m, -side * CR * w_mps, a_mps2, t_s)
-    return (wall_m if side * (x_m - wall_m) > 0 else x_m), v_mps  # beyond again: a second bounce
+    return (wall_m if side * (x_m - wall_m) > 0 else x_m), v_mps  # beyond again: on the wall
 
 CORRECTIONS = {"none": none, "surface": surface, "rebound": rebound, "conserve": conserve,
                "rewind": rewind}
@@ -199,7 +199,7 @@ def step(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> tuple[float, fl
     # Replay is asked also if v changed its sign: the car may have been beyond a wall and come back.
     if scene.correction == "replay" and (is_beyond or v_mps * free_mps < 0):
         x_m, v_mps = replay(scene, x_m, v_mps, dt_s)
-        is_bounce = is_beyond or v_mps != free_mps  # without a bounce, v is exactly the move's
+        is_bounce = is_beyond or v_mps != free_mps  # without a bounce, v is that of the move
         return x_m, v_mps, (free_m if is_bounce else None)
     if is_beyond:
         correction = CORRECTIONS[scene.correction]
@@ -241,7 +241,7 @@ def replay(scene: Scene, x_m: float, v_mps: float, t_s: float) -> State:
     return scene.to_track(floor_m + up * h_m), up * v_mps  # round-off must not leave it beyond
 
 def hops(v_mps: float, g_mps2: float, CR: float, t_s: float) -> tuple[float, float]:
-    """Take all whole hops that fit into t_s in one go. Returns the time still to fly, and v.
+    """Take in one go all whole hops that fit into t_s. Returns the time that is left, and v then.
 
     The first hop lasts T = 2 v/g, and each hop CR times as long as the one before. So all of them,
     infinitely many, last T (1 + CR + CR^2 + ...) = T/(1 - CR). Then comes the Zeno point: rest.
@@ -297,7 +297,7 @@ def planned(scene: Scene) -> Iterator[tuple[float, float]]:
         fraction = 0.618 * frame % 1  # from 0 to 1; the golden ratio's 0.618 spreads it evenly
         yield (1 + scene.jitter * (2 * fraction - 1)) / scene.fps_target, scene.fps_target
 
-STALL_S, STALL_FRAMES = 0.15, 1.5  # a frame that takes over 0.15 s and 1.5 times its due time
+STALL_S, STALL_FRAMES = 0.15, 1.5  # a stall takes longer than 0.15 s, and than 1.5 of its due time
 LATE_S = 0.02  # a delay of at most this, or of at most a frame, is made up by the next frames
 
 def paced(scene: Scene, keys: Keys) -> Iterator[tuple[float, float]]:
@@ -380,10 +380,9 @@ def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None
 # Each hop should last CR times as long as the one before. Count a hop in lines of the film, from
 # one in which a bounce is found to the next such line. Then a long hop is followed, on average, by
 #     next = CR (hop + k) + k    lines, where k is the motion's number plus the correction's:
-#     forward 1    exact 0    backward -1      surface 1/2    rebound 1    conserve 0    none 0
-# (The correction none has this number only at CR = 1. Rewind and replay need no number: where they
-# are right, so are the hops.) Here is a hop with exact + rebound, so k is 1. It has 9 lines. By the
-# law the next one has 0.8 (9 + 1) + 1 = 9 lines again.
+#     forward 1   exact 0   backward -1    surface 1/2   rebound 1   conserve 0   none 0 (at CR = 1)
+# Rewind and replay need no number: where they are right, their hops are right, too. Here is a hop
+# of 9 lines with exact + rebound, so k is 1. The law predicts 0.8 (9 + 1) + 1 = 9 lines again.
 #     0:   0    |   *                    v =  0.80    The hop begins upwards, at u = 0.80 m/s.
 #     1:        |          *             v =  0.60
 #     2:        |               *        v =  0.40    CR is 0.8, and dt is 0.1 s.
@@ -402,29 +401,30 @@ def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None
 #     surface:   The hop begins on the floor, with u. So w - u is lag g dt, on average g dt/2.
 #     rebound:   The hop before ended with its own w, about lag w dt deep. The rebound puts the car
 #                CR times as far above the floor, and u is CR times that w. So this hop begins about
-#                lag u dt high (0.04). To have u there, the car must leave the floor with
-#                u + lag g dt (about 0.9). So w - u is 2 lag g dt, on average g dt.
+#                lag u dt high (0.04), as if the car had left the floor with u + lag g dt (about
+#                0.9). So, if both lags are equal, w - u is 2 lag g dt: on average g dt.
 #     none:      At CR = 1 a hop ends, on average, as deep as it begins. So w - u is 0 on average.
-#     conserve:  It keeps E on the way to the floor and off it. Here let u and w be the speeds at
-#                the floor: w - u is 0. (On average the time between is hop dt, and (1) holds.)
+#     conserve:  This correction keeps E on the way to the floor and off it. Here let u and w be the
+#                speeds at the floor: w - u is 0. (They are hop dt apart, as in (1), on average.)
 # An Euler motion also changes E, in each frame by m g^2 dt^2/2, where m is the motion's number. So
-# in the hop (w - u)(w + u)/2 gets larger by hop m g^2 dt^2/2. By (1), (w + u)/2 is hop g dt/2. So
-# w - u gets larger by m g dt. In all,
+# in the whole hop w^2/2 - u^2/2, or (w - u)(w + u)/2, changes by hop m g^2 dt^2/2. By (1) (w + u)/2
+# is hop g dt/2. So w - u changes by m g dt. In all,
 #     (2)  w - u = k g dt        1.0 - 0.8 = 1 * 0.2
 # By (1) and (2) w is (hop + k) g dt/2 and u is (hop - k) g dt/2. The next u is CR w. It is also
 # (next - k) g dt/2. So next - k = CR (hop + k). With equal frames, from most starts, it leads to:
 #     CR = 1: On average each hop is 2 k lines longer than the one before. If k > 0, hops grow until
 #         the car meets the other wall. If k < 0, they shrink until the car rests (with the
 #         correction none, until it is caught). If k = 0, they keep their length, or go up and down.
-#     CR < 1, k > 0: By the law, a hop of n = k (1 + CR)/(1 - CR) lines repeats. Longer hops shrink
-#         and end somewhere from n/2 to 2 n. Shorter ones grow, or repeat as they are.
-#     CR < 1, k <= 0: Hops shrink until the car rests. (With backward + rebound, some repeat.)
-# Why not all at n? The numbers 1/2 and 1 of surface and rebound are for a lag of 1/2. But if hops
-# repeat, each bounce has the same lag, and this may be another. Then the numbers are lag and 2 lag,
-# so k and n change. With backward + rebound k is 2 lag - 1: hops repeat if the lag is over 1/2.
-# Rest is a bounce in every line, up to g dt^2/4 (above, 5 mm) from the wall, and a film may run on.
-# The table was counted at CR = 0.9, where n is 19 k. Hops that begin with 30 to 90 lines end so,
-# but for the rarest 2 of 100. (With surface they end above n, so with a lag of over 1/2.)
+#     CR < 1, k > 0: By the law, a hop of n = k (1 + CR)/(1 - CR) lines repeats. Hops of over 2 n
+#         lines get shorter, until they have n/2 to 2 n. Short hops get longer, or repeat at once.
+#         Why do not all hops end with n lines? The numbers 1/2 of surface and 1 of rebound are for
+#         a lag of 1/2. If hops repeat, all have the same lag, and it may be larger or smaller. Then
+#         the numbers are lag and 2 lag. So k is larger or smaller, and n, too.
+#     CR < 1, k <= 0: Hops get shorter, until the car rests: it bounces in each line, up to g dt^2/4
+#         from the wall (5 mm for the hop above), so a film may run on. But with backward + rebound
+#         k is 2 lag - 1. If the lag is over 1/2, this is above 0, and hops may repeat.
+# The table was counted at CR = 0.9, where n is 19 k, from hops of 30 to 90 lines. It leaves out the
+# rarest 2 of 100 results. With surface the last hops are longer than n: their lag is over 1/2.
 #                   + surface     + rebound            + conserve
 #     forward       29 to 37      33 to 48             18 and 19 lines
 #     exact         10 to 18      14 to 30             rest

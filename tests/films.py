@@ -101,7 +101,7 @@ def starts(motion: str, correction: str, CR: float, low: float, high: float,
 # The law of the hops: the k of each motion and correction, as airtrack.py has it.
 README = (HERE / "README.md").read_text(encoding="utf-8")
 LAW = (HERE / "airtrack.py").read_text().partition("# ==== 7. ")[2].partition("# ==== 8. ")[0]
-K = {name: float(Fraction(k)) for name, k in re.findall("    ([a-z]+) (-?[0-9/]+)(?=\\s)", LAW)}
+K = {name: float(Fraction(k)) for name, k in re.findall("   ([a-z]+) (-?[0-9/]+)(?=\\s)", LAW)}
 
 Beside = list[tuple[float, float, float | None]]  # x, the true x and mark_m, frame by frame
 
