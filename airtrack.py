@@ -30,7 +30,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import nullcontext
 from dataclasses import Field, dataclass, field, fields, replace
 from functools import cache
-from itertools import count, pairwise
+from itertools import count, pairwise, takewhile
 from statistics import fmean
 from typing import Any
 
@@ -735,7 +735,7 @@ def tell_of_walls(scene: Scene) -> None:
         enough = math.floor(1000 * (scene.width_px - 1) / scene.right_edge_m) / 1000
         say(f"The picture ends before a wall: m_to_px={enough:g} would show both.")
 
-ACCOUNT = "bounces", "lines apart", "turned at x (m)", "beyond a wall", "top speed", "rests"
+ACCOUNT = "bounces", "lines per hop", "turned at x (m)", "beyond a wall", "top speed", "rests"
 
 def account(name: str, scene: Scene, until_s: float) -> tuple[str, ...]:
     """A heading, and the rows of ACCOUNT: what the scene's film shows until that time."""
@@ -751,17 +751,17 @@ def account(name: str, scene: Scene, until_s: float) -> tuple[str, ...]:
     bounces = {n: mark_m for n, (_, _, mark_m) in enumerate(states) if mark_m is not None}
     left = sum(mark_m < (scene.left_edge_m + scene.right_edge_m) / 2 for mark_m in bounces.values())
     hops = [str(b - a) for a, b in pairwise(bounces)]
-    turns_m = [f"{(max if was_mps > 0 else min)(was_m, x_m):.2f}"  # the frame that was further
-               for (was_m, was_mps, _), (x_m, v_mps, mark_m) in pairwise(states)
-               if mark_m is None and was_mps and was_mps * v_mps <= 0]
+    equal = len(list(takewhile(lambda hop: hop == hops[-1], reversed(hops))))
+    turns_m = [f"{(max if v > 0 else min)(x, x_m):.2f}" for (x, v, _), (x_m, v_mps, mark_m)
+               in pairwise(states) if mark_m is None and v and v * v_mps <= 0]  # the further x
     for figures, last in (hops, 2), (turns_m, 1):  # the first four and the last ones are enough
         figures[4:-last] = ["..."] * (len(figures) > 4 + last)
     xs, vs, _ = zip(*states)
-    deepest_m, late = max(abs(x_m - scene.to_track(x_m)) for x_m in xs), vs[-1 - round(1 / dt_s):]
+    deepest_m = max(abs(x_m - scene.to_track(x_m)) for x_m in (*xs, *bounces.values()))
     return (f"{name}, {scene.fps_target:g} FPS", f"{left} left, {len(bounces) - left} right",
-            " ".join(hops) or "-", " ".join(turns_m) or "not in flight",
-            f"up to {deepest_m:.3f} m" if deepest_m else "never", f"{max(map(abs, vs)):.2f} m/s",
-            rests or f"not yet, up to {max(map(abs, late)):.2f} m/s")
+            " ".join(hops) or "-", " ".join(turns_m) or "not between the walls",
+            f"up to {deepest_m:.3f} m", f"{max(map(abs, vs)):.2f} m/s",
+            rests or (f"no: its last {equal} hops are equal" if equal > 3 else "not by then"))
 
 def film(scene: Scene, number: int, title: str, options: dict[str, str]) -> int:
     """Print what to look for, leave time to guess, run, and print what was to be seen."""

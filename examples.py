@@ -240,10 +240,10 @@ EXAMPLES = {
         "in frame 86. The o, the true ball, lies still from t = 1.35 s on."),
 }
 OWN_SCENE = Example("Your own scene", {},
-    "How far does the car get from each wall? Does it come to rest?",
-    "A true car comes to rest only under a pull, and if CR < 1. If so, and if the hops do not get "
-    "shorter any more, the method is to blame: set motion=exact correction=conserve. Films 19 and "
-    "20 say why. (Where bounces are 1 line apart, the car lies at a wall, or in it.)")
+    "Where does the car turn? Does it come to rest?",
+    "A true car comes to rest if there is a pull and CR < 1, otherwise never. If yours should, and "
+    "its last hops are equal, the method is to blame: set motion=exact correction=conserve. Films "
+    "19 and 20 say why. (If a hop has 1 line, the car lies at a wall, or in it.)")
 
 
 # ==== The terminal's keys =======================================================================

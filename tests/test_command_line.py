@@ -136,7 +136,7 @@ def test_settings_come_on_top_of_the_example(capsys: Capture) -> None:
      "The car starts at 5 m, beyond a wall, at rest, not pulled; walls "),
     ("99", f"{OWN}. The car starts at 1.1 m, at rest, not pulled: nothing moves it until "
      "v_mps or a_mps2 is given; walls at 0.25 and 2.2 m; CR=0.8. Motion backward, correction "
-     "rebound, 30 frames a second. How far does the car get "),
+     "rebound, 30 frames a second. Where does the car turn? "),
     ("99 v_mps=1", f"{OWN}, v_mps=1.0. The car starts at 1.1 m, moving to the right at 1 "),
     ("-3 v_mps=-3 a_mps2=1.5 motion=exact", f"{OWN}, v_mps=-3.0, a_mps2=1.5, motion=exact. "
      "The car starts at 1.1 m, moving to the left at 3 m/s, pulled to the right at 1.5 m/s^2; "

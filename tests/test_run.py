@@ -349,8 +349,11 @@ def test_after_a_changed_film_its_bounces_hops_and_turns_stand_beside_those_of_t
             scenes, zip(*account(out), strict=True), strict=True):
         # At 2 m/s^2 the car rises or falls d in sqrt(d) s. A bounce leaves CR^2 of d.
         found, tops_m, now_s, rise_s = list[int](), list[float](), 0.0, math.sqrt(way_m)
+        deepest_m = 0.0
         while (now_s := now_s + rise_s) <= seconds:
             found.append(math.ceil(now_s * rate))  # the frame at whose end
+            late_s = found[-1] / rate - now_s
+            deepest_m = max(deepest_m, 2 * rise_s * late_s + late_s**2)
             rise_s *= kept
             now_s += rise_s
             tops_m += [0.25 + rise_s**2] * (math.ceil(now_s * rate) <= seconds * rate)
@@ -358,7 +361,7 @@ def test_after_a_changed_film_its_bounces_hops_and_turns_stand_beside_those_of_t
         told[4:-2] = ["..."] * (len(told) > 6)
         tops_m[4:-1] = []
         assert (bounces, hops, beyond) == (
-            f"{len(found)} left, 0 right", " ".join(told) or "-", "never")
+            f"{len(found)} left, 0 right", " ".join(told) or "-", f"up to {deepest_m:.3f} m")
         assert float(speed[:-4]) == pytest.approx(2 * math.sqrt(way_m), abs=2 / rate)
         assert [float(top) for top in re.findall("[0-9.]+[0-9]", turns)] == pytest.approx(
             tops_m, abs=0.0076)  # the higher of two frames is within (dt/2)^2 of the turn
@@ -367,27 +370,27 @@ def test_after_a_changed_film_its_bounces_hops_and_turns_stand_beside_those_of_t
 def test_the_account_says_how_far_beyond_a_wall_the_car_was_and_whether_it_rests(
         play: Play) -> None:
     *_, beyond, _, rests = account(play("3 correction=rebound --frames 600"))
-    assert beyond == ["up to 0.600 m", "never"]  # 0.25 + 0.35: test_examples.py
-    assert rests[0] == f"not yet, up to {0.6 * 1.5 / 30 / 1.6:.2f} m/s"  # CR g dt/(1 + CR)
+    assert beyond == ["up to 0.600 m", "up to 0.052 m"]  # 0.25 + 0.35, 5.2 cm: as the page says
+    assert rests[0] == "no: its last 554 hops are equal"  # from frame 46 on, it is caught
     assert account(play("1 jitter=0.1"))[5] == ["yes, noticed at 8.37 s"] * 2
     # v is 0 at the end of a frame: one turn, and not two.
     turned = account(play("99 v_mps=1 a_mps2=-2 fps_target=4 --frames 4"))
     assert turned[:3] == [["0 left, 0 right"], ["-"], ["1.23"]]
     ball = account(play("99 x_m=2.25 a_mps2=-9.81 right_edge_m=3 CR=0.9", t15="x"))
     assert ball[1] == ["34 30 26 23 ... 2 2"]
-    assert "not yet, up to 0." in ball[5][0]
+    assert re.fullmatch("no: its last [0-9]+ hops are equal", ball[5][0])
 
 
 def test_the_account_of_one_s_own_film_stands_before_what_to_do_next(play: Play) -> None:
     for words, told in (
-            ("--frames 9",
-             "0 left, 0 right - not in flight never 0.00 m/s not yet, up to 0.00 m/s"),
-            ("v_mps=1 --frames 34",
-             "0 left, 1 right - not in flight never 1.00 m/s not yet, up to 1.00 m/s"),
-            ("x_m=0.25 a_mps2=-2 CR=0", "10 left, 0 right 1 1 1 1 ... 1 1 not in flight never "
-             "0.00 m/s yes, noticed at 0.33 s")):
+            ("--frames 9", "0 left, 0 right - not between the walls up to 0.000 m 0.00 m/s not by "
+             "then"),
+            ("v_mps=1.2 --frames 34", "0 left, 1 right - not between the walls up to 0.020 m 1.20 "
+             "m/s not by then"),
+            ("x_m=0.25 a_mps2=-2 CR=0", "10 left, 0 right 1 1 1 1 ... 1 1 not between the walls up "
+             "to 0.002 m 0.00 m/s yes, noticed at 0.33 s")):
         out = play(f"99 {words}")
-        assert " ".join(out.split()).endswith(examples.OWN_SCENE.seen) is ("not yet" in told)
+        assert " ".join(out.split()).endswith(examples.OWN_SCENE.seen) is ("not by" in told)
         assert re.search(r"\nin +[0-9.]+ s +\* your film, 30 FPS\n", out)
         assert " ".join(cell for cell, in account(out)) == told
 
