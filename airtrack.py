@@ -761,7 +761,7 @@ def account(name: str, scene: Scene, until_s: float) -> tuple[str, ...]:
     return (f"{name}, {scene.fps_target:g} FPS", f"{left} left, {len(bounces) - left} right",
             " ".join(hops) or "-", " ".join(turns_m) or "not between the walls",
             f"up to {deepest_m:.3f} m", f"{max(map(abs, vs)):.2f} m/s",
-            rests or (f"no: its last {equal} hops are equal" if equal > 3 else "not by then"))
+            rests or (f"no: last {equal} hops are equal" if equal > 3 else "not by then"))
 
 def film(scene: Scene, number: int, title: str, options: dict[str, str]) -> int:
     """Print what to look for, leave time to guess, run, and print what was to be seen."""
