@@ -38,7 +38,8 @@ WRONG = {  # a command line that is refused: what is said of it
     "--frames 0": "--frames N must be a whole number from 1 up, not 0",
     "--frames 2.5": "--frames N must be a whole number from 1 up, not '2.5'",
     "--frames": "--frames N must be a whole number from 1 up, not ''",
-    "chart motion=exakt": "motion must be forward, backward or exact, not 'exakt'",
+    "chart motion=exakt": f"motion must be {airtrack.allowed_text(SETTINGS['motion'])}, not "
+                          "'exakt'",
     "stability 10 correction=off": "correction must be none, surface, rebound, conserve, rewind or "
                                    "replay, not 'off'",
 }
