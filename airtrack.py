@@ -103,9 +103,9 @@ def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -
 def conserve(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Put the car where rebound does, at the speed with which it has the right energy there.
 
-    If this energy is too small to get there, put the car on the wall. With the exact motion and one
-    bounce in the frame, only the moment of the bounce is wrong. This error is of second order: with
-    half the dt it is a quarter as large. Conserve may throw the car out, too, as rebound does.
+    If this energy is too small to get there, put the car on the wall. With the exact motion, only
+    the moment of a bounce that is found is wrong. This error is of second order: with half the dt
+    it is a quarter as large. Conserve may throw the car out, too, as rebound does.
     """
     overlap_m = x_m - wall_m
     # Take the car back to the wall. E is constant: w^2 = v^2 - 2 a overlap. The bounce leaves CR w.
@@ -124,7 +124,7 @@ def arrival(d_m: float, u_mps: float, a_mps2: float) -> tuple[float, float]:
     # Energy gives the speed w at the wall: w^2 = u^2 + 2 a d. (Round-off may make it negative.)
     w_mps = math.sqrt(max(0.0, u_mps * u_mps + 2 * a_mps2 * d_m))
     # The time t follows from the mean velocity, d = t (u + w)/2, or from w = u + a t. If u > 0 take
-    # the first, as w - u may be mostly round-off; else the second, as u + w may be mostly that.
+    # the first, as w - u may be mostly round-off. If not, u + w may be: then take the second.
     return (2 * d_m / (u_mps + w_mps) if u_mps > 0 else (w_mps - u_mps) / a_mps2), w_mps
 
 def rewind(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
@@ -297,7 +297,7 @@ def planned(scene: Scene) -> Iterator[tuple[float, float]]:
         fraction = 0.618 * frame % 1  # from 0 to 1; the golden ratio's 0.618 spreads it evenly
         yield (1 + scene.jitter * (2 * fraction - 1)) / scene.fps_target, scene.fps_target
 
-STALL_S, STALL_FRAMES = 0.15, 1.5  # a stall takes longer than 0.15 s, and than 1.5 of its due time
+STALL_S, STALL_FRAMES = 0.15, 1.5  # longer than 0.15 s, and 1.5 times longer than due: a stall
 LATE_S = 0.02  # a delay of at most this, or of at most a frame, is made up by the next frames
 
 def paced(scene: Scene, keys: Keys) -> Iterator[tuple[float, float]]:
@@ -414,17 +414,17 @@ def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None
 # (next - k) g dt/2. So next - k = CR (hop + k). With equal frames, from most starts, it leads to:
 #     CR = 1: On average each hop is 2 k lines longer than the one before. If k > 0, hops grow until
 #         the car meets the other wall. If k < 0, they shrink until the car rests (with the
-#         correction none, until it is caught). If k = 0, they keep their length, or go up and down.
+#         correction none, until it is caught). If k = 0, their length stays, or goes up and down.
 #     CR < 1, k > 0: By the law, a hop of n = k (1 + CR)/(1 - CR) lines repeats. Hops of over 2 n
-#         lines get shorter, until they have n/2 to 2 n. Short hops get longer, or repeat at once.
-#         Why do not all hops end with n lines? The numbers 1/2 of surface and 1 of rebound are for
-#         a lag of 1/2. If hops repeat, all have the same lag, and it may be larger or smaller. Then
-#         the numbers are lag and 2 lag. So k is larger or smaller, and n, too.
-#     CR < 1, k <= 0: Hops get shorter, until the car rests: it bounces in each line, up to g dt^2/4
-#         from the wall (5 mm for the hop above), so a film may run on. But with backward + rebound
-#         k is 2 lag - 1. If the lag is over 1/2, this is above 0, and hops may repeat.
-# The table was counted at CR = 0.9, where n is 19 k, from hops of 30 to 90 lines. It leaves out the
-# rarest 2 of 100 results. With surface the last hops are longer than n: their lag is over 1/2.
+#         lines shrink, until they have n/2 to 2 n. Short hops grow, or repeat as they are. Why may
+#         other hops than n repeat? The numbers of surface and rebound, 1/2 and 1, are for a lag of
+#         1/2. A hop that repeats has the same lag each time, perhaps a larger or smaller one. Then
+#         the numbers are lag and 2 lag. As a lag is at most 1, n becomes at most twice as large.
+#     CR < 1, k <= 0: Hops shrink until the car rests. In a film, this is a bounce in each line, at
+#         most g dt^2/4 from the wall. (This is 5 mm with the g and dt above, so a film may run on.)
+#         But with backward + rebound k is 2 lag - 1. If this is above 0, hops may repeat.
+# For the table, hops of 30 to 90 lines were followed to their end at CR = 0.9, where n is 19 k. The
+# rarest 2 of 100 ends are left out. With surface the last hops exceed n: their lag is over 1/2.
 #                   + surface     + rebound            + conserve
 #     forward       29 to 37      33 to 48             18 and 19 lines
 #     exact         10 to 18      14 to 30             rest
@@ -735,7 +735,7 @@ def tell_of_walls(scene: Scene) -> None:
         enough = math.floor(1000 * (scene.width_px - 1) / scene.right_edge_m) / 1000
         say(f"The picture ends before a wall: m_to_px={enough:g} would show both.")
 
-ACCOUNT = "bounces", "lines per hop", "turned at x (m)", "beyond a wall", "top speed", "rests"
+ACCOUNT = "bounces", "lines per hop", "turned at x (m)", "move beyond wall", "top speed", "rests"
 
 def account(name: str, scene: Scene, until_s: float) -> tuple[str, ...]:
     """A heading, and the rows of ACCOUNT: what the scene's film shows until that time."""
@@ -756,12 +756,12 @@ def account(name: str, scene: Scene, until_s: float) -> tuple[str, ...]:
                in pairwise(states) if mark_m is None and v and v * v_mps <= 0]  # the further x
     for figures, last in (hops, 2), (turns_m, 1):  # the first four and the last ones are enough
         figures[4:-last] = ["..."] * (len(figures) > 4 + last)
-    xs, vs, _ = zip(*states)
-    deepest_m = max(abs(x_m - scene.to_track(x_m)) for x_m in (*xs, *bounces.values()))
+    deepest_m = max([abs(mark_m - scene.to_track(mark_m)) for mark_m in bounces.values()] or [0.0])
     return (f"{name}, {scene.fps_target:g} FPS", f"{left} left, {len(bounces) - left} right",
-            " ".join(hops) or "-", " ".join(turns_m) or "not between the walls",
-            f"up to {deepest_m:.3f} m", f"{max(map(abs, vs)):.2f} m/s",
-            rests or (f"no: last {equal} hops are equal" if equal > 3 else "not by then"))
+            " ".join(hops) or "-", " ".join(turns_m) or "only at walls" * bool(bounces) or "-",
+            f"up to {deepest_m:.3f} m", f"{max(abs(v_mps) for _, v_mps, _ in states):.2f} m/s",
+            rests or (f"no: last {equal} hops have {hops[-1]} lines" if equal > 3 else
+                      "not in this time"))
 
 def film(scene: Scene, number: int, title: str, options: dict[str, str]) -> int:
     """Print what to look for, leave time to guess, run, and print what was to be seen."""

@@ -241,9 +241,9 @@ EXAMPLES = {
 }
 OWN_SCENE = Example("Your own scene", {},
     "Where does the car turn? Does it come to rest?",
-    "A true car comes to rest if there is a pull and CR < 1, otherwise never. If yours should, and "
-    "its last hops are equal, the method is to blame: set motion=exact correction=conserve. Films "
-    "19 and 20 say why. (If a hop has 1 line, the car lies at a wall, or in it.)")
+    "With a pull and CR < 1 a true car comes to rest. If yours does not, and its last hops are "
+    "equally long, the method is to blame: set motion=exact correction=conserve. Films 19 and 20 "
+    "say why. (In hops of 1 line the car lies at a wall.)")
 
 
 # ==== The terminal's keys =======================================================================

@@ -371,26 +371,25 @@ def test_the_account_says_how_far_beyond_a_wall_the_car_was_and_whether_it_rests
         play: Play) -> None:
     *_, beyond, _, rests = account(play("3 correction=rebound --frames 600"))
     assert beyond == ["up to 0.600 m", "up to 0.052 m"]  # 0.25 + 0.35, 5.2 cm: as the page says
-    assert rests[0] == "no: last 554 hops are equal"  # from frame 46 on, it is caught
+    assert rests[0] == "no: last 554 hops have 1 lines"  # from frame 46 on, it is caught
     assert account(play("1 jitter=0.1"))[5] == ["yes, noticed at 8.37 s"] * 2
     # v is 0 at the end of a frame: one turn, and not two.
     turned = account(play("99 v_mps=1 a_mps2=-2 fps_target=4 --frames 4"))
     assert turned[:3] == [["0 left, 0 right"], ["-"], ["1.23"]]
     ball = account(play("99 x_m=2.25 a_mps2=-9.81 right_edge_m=3 CR=0.9", t15="x"))
     assert ball[1] == ["34 30 26 23 ... 2 2"]
-    assert re.fullmatch("no: last [0-9]+ hops are equal", ball[5][0])
+    assert re.fullmatch("no: last [0-9]+ hops have 2 lines", ball[5][0])
 
 
 def test_the_account_of_one_s_own_film_stands_before_what_to_do_next(play: Play) -> None:
     for words, told in (
-            ("--frames 9", "0 left, 0 right - not between the walls up to 0.000 m 0.00 m/s not by "
-             "then"),
-            ("v_mps=1.2 --frames 34", "0 left, 1 right - not between the walls up to 0.020 m 1.20 "
-             "m/s not by then"),
-            ("x_m=0.25 a_mps2=-2 CR=0", "10 left, 0 right 1 1 1 1 ... 1 1 not between the walls up "
-             "to 0.002 m 0.00 m/s yes, noticed at 0.33 s")):
+            ("--frames 9", "0 left, 0 right - - up to 0.000 m 0.00 m/s not in this time"),
+            ("v_mps=1.2 --frames 34", "0 left, 1 right - only at walls up to 0.020 m 1.20 m/s not "
+             "in this time"),
+            ("x_m=0.25 a_mps2=-2 CR=0", "10 left, 0 right 1 1 1 1 ... 1 1 only at walls up to "
+             "0.002 m 0.00 m/s yes, noticed at 0.33 s")):
         out = play(f"99 {words}")
-        assert " ".join(out.split()).endswith(examples.OWN_SCENE.seen) is ("not by" in told)
+        assert " ".join(out.split()).endswith(examples.OWN_SCENE.seen) is ("not in" in told)
         assert re.search(r"\nin +[0-9.]+ s +\* your film, 30 FPS\n", out)
         assert " ".join(cell for cell, in account(out)) == told
 
