@@ -372,6 +372,8 @@ def test_the_account_says_how_far_beyond_a_wall_the_car_was_and_whether_it_rests
     *_, beyond, _, rests = account(play("3 correction=rebound --frames 600"))
     assert beyond == ["up to 0.600 m", "up to 0.052 m"]  # 0.25 + 0.35, 5.2 cm: as the page says
     assert rests[0] == "no: last 554 hops have 1 lines"  # from frame 46 on, it is caught
+    assert account(play("8 auto_off=False --frames 150"))[5] == [
+        "no: last 5 hops have 26 lines"] * 2
     assert account(play("1 jitter=0.1"))[5] == ["yes, noticed at 8.37 s"] * 2
     # v is 0 at the end of a frame: one turn, and not two.
     turned = account(play("99 v_mps=1 a_mps2=-2 fps_target=4 --frames 4"))
