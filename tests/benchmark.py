@@ -1,4 +1,4 @@
-"""What the parts of a frame cost, as ratios: python tests/benchmark.py
+"""What a move costs beside its frame, as a ratio: python tests/benchmark.py
 
 Not a test, which must not depend on a machine's speed. Costs are the least of several runs.
 """
@@ -7,7 +7,6 @@ import io
 import sys
 import time
 from contextlib import redirect_stdout
-from dataclasses import replace
 from pathlib import Path
 from timeit import repeat
 
@@ -27,10 +26,8 @@ def frame_us(scene: Scene) -> float:
 
 
 def main() -> None:
-    seven, ten = (Scene(**EXAMPLES[number].settings) for number in (7, 10))
+    ten = Scene(**EXAMPLES[10].settings)
     print(f"example 10: the move takes {cost_us(ten, 10) / 10 / frame_us(ten):.0%} of a frame")
-    rest = 1 - frame_us(replace(seven, auto_off=False)) / frame_us(seven)
-    print(f"example 7: to ask whether the car is at rest takes {rest:.0%} of a frame")
 
 
 if __name__ == "__main__":

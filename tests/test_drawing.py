@@ -58,9 +58,3 @@ def test_each_letter_stands_where_the_film_of_its_method_has_the_car(
                 letter not in line and (column == -1 or line[column] in hides))
     assert set("".join(shown)) - set(" |*<>.0") == set(seen)
     assert not set(marks) & set("".join(film(capsys, *asked, "show_methods=False").lines))
-
-
-@pytest.mark.parametrize(("x_m", "mark", "column"), [
-    (4.5, "*", 4), (5.5, "*", 6), (-0.4, "*", 0), (-0.9, "<", 0), (9.4, "*", 9), (9.6, ">", 9)])
-def test_columns_are_rounded_half_ones_to_the_even_one(x_m: float, mark: str, column: int) -> None:
-    assert render_track(Scene(m_to_px=1, width_px=10), x_m)[column] == mark
