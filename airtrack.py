@@ -104,8 +104,8 @@ def conserve(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) 
     """Put the car where rebound does, at the speed with which it has the right energy there.
 
     If this energy is too small to get there, put the car on the wall. With the exact motion, only
-    the moment of a bounce that is found is wrong. This error is of second order: with half the dt
-    it is a quarter as large. Conserve may throw the car out, too, as rebound does.
+    the moment of the bounce is wrong, if it is found. This error is of second order: with half the
+    dt it is a quarter as large. Conserve may throw the car out, too, as rebound does.
     """
     overlap_m = x_m - wall_m
     # Take the car back to the wall. E is constant: w^2 = v^2 - 2 a overlap. The bounce leaves CR w.
@@ -124,7 +124,7 @@ def arrival(d_m: float, u_mps: float, a_mps2: float) -> tuple[float, float]:
     # Energy gives the speed w at the wall: w^2 = u^2 + 2 a d. (Round-off may make it negative.)
     w_mps = math.sqrt(max(0.0, u_mps * u_mps + 2 * a_mps2 * d_m))
     # The time t follows from the mean velocity, d = t (u + w)/2, or from w = u + a t. If u > 0 take
-    # the first, as w - u may be mostly round-off. If not, u + w may be: then take the second.
+    # the first, as w - u may be mostly round-off; otherwise the second, as u + w may be that.
     return (2 * d_m / (u_mps + w_mps) if u_mps > 0 else (w_mps - u_mps) / a_mps2), w_mps
 
 def rewind(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
@@ -217,7 +217,7 @@ def replay(scene: Scene, x_m: float, v_mps: float, t_s: float) -> State:
     the ball is on the floor and too slow for the ceiling, hops() takes all its whole hops at once.
 
     A graze is a touch of the ceiling at almost no speed. Round-off would decide whether there is a
-    touch. So if the ball would turn less than GRAZE_M above the ceiling, it turns without a touch.
+    touch. So a ball that would rise less than GRAZE_M higher than the ceiling turns without one.
     With the default walls, each such miss makes an error of up to 4e-5 m, and these errors add up.
     """
     up, floor_m = (-1, scene.right_edge_m) if scene.a_mps2 > 0 else (1, scene.left_edge_m)
@@ -297,7 +297,7 @@ def planned(scene: Scene) -> Iterator[tuple[float, float]]:
         fraction = 0.618 * frame % 1  # from 0 to 1; the golden ratio's 0.618 spreads it evenly
         yield (1 + scene.jitter * (2 * fraction - 1)) / scene.fps_target, scene.fps_target
 
-STALL_S, STALL_FRAMES = 0.15, 1.5  # longer than 0.15 s, and 1.5 times longer than due: a stall
+STALL_S, STALL_FRAMES = 0.15, 1.5  # a stall: over 0.15 s, and over 1.5 times as long as due
 LATE_S = 0.02  # a delay of at most this, or of at most a frame, is made up by the next frames
 
 def paced(scene: Scene, keys: Keys) -> Iterator[tuple[float, float]]:
@@ -397,7 +397,7 @@ def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None
 #     (1)  u + w = hop g dt      0.8 + 1.0 = 9 * 0.2
 # How much larger is w than u? A bounce is found late, by a part of a frame. Call this part the lag:
 # on average it is 1/2. In this time the car falls below the floor and gains lag g dt. So at the
-# floor it had w - lag g dt (about 0.9). With the exact motion it had as much there on the way up.
+# floor it had w - lag g dt (about 0.9). With the exact motion a car comes down as fast as it rose.
 #     surface:   The hop begins on the floor, with u. So w - u is lag g dt, on average g dt/2.
 #     rebound:   The hop before ended with its own w, about lag w dt deep. The rebound puts the car
 #                CR times as far above the floor, and u is CR times that w. So this hop begins about
@@ -405,10 +405,10 @@ def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None
 #                0.9). So, if both lags are equal, w - u is 2 lag g dt: on average g dt.
 #     none:      At CR = 1 a hop ends, on average, as deep as it begins. So w - u is 0 on average.
 #     conserve:  This correction keeps E on the way to the floor and off it. Here let u and w be the
-#                speeds at the floor: w - u is 0. (They are hop dt apart, as in (1), on average.)
+#                speeds at the floor: w - u is 0. On average the time between is hop dt, as in (1).
 # An Euler motion also changes E, in each frame by m g^2 dt^2/2, where m is the motion's number. So
-# in the whole hop w^2/2 - u^2/2, or (w - u)(w + u)/2, changes by hop m g^2 dt^2/2. By (1) (w + u)/2
-# is hop g dt/2. So w - u changes by m g dt. In all,
+# in the whole hop w^2/2 - u^2/2, or (w - u)(w + u)/2, changes by hop m g^2 dt^2/2. As (w + u)/2 is
+# hop g dt/2, by (1), w - u changes by m g dt. In all,
 #     (2)  w - u = k g dt        1.0 - 0.8 = 1 * 0.2
 # By (1) and (2) w is (hop + k) g dt/2 and u is (hop - k) g dt/2. The next u is CR w. It is also
 # (next - k) g dt/2. So next - k = CR (hop + k). With equal frames, from most starts, it leads to:
@@ -417,14 +417,14 @@ def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None
 #         correction none, until it is caught). If k = 0, their length stays, or goes up and down.
 #     CR < 1, k > 0: By the law, a hop of n = k (1 + CR)/(1 - CR) lines repeats. Hops of over 2 n
 #         lines shrink, until they have n/2 to 2 n. Short hops grow, or repeat as they are. Why may
-#         other hops than n repeat? The numbers of surface and rebound, 1/2 and 1, are for a lag of
-#         1/2. A hop that repeats has the same lag each time, perhaps a larger or smaller one. Then
-#         the numbers are lag and 2 lag. As a lag is at most 1, n becomes at most twice as large.
-#     CR < 1, k <= 0: Hops shrink until the car rests. In a film, this is a bounce in each line, at
-#         most g dt^2/4 from the wall. (This is 5 mm with the g and dt above, so a film may run on.)
-#         But with backward + rebound k is 2 lag - 1. If this is above 0, hops may repeat.
+#         a hop repeat that has not n lines? The numbers of surface and rebound, 1/2 and 1, are for
+#         a lag of 1/2. A hop that repeats has the same lag each time, perhaps another one. Then the
+#         numbers are lag and 2 lag. As a lag is at most 1, k and n are at most doubled.
+#     CR < 1, k <= 0: Hops shrink until the car rests. In a film it then bounces in each line, up to
+#         g dt^2/4 from the wall. With the g and dt above this is 5 mm, too much for is_at_rest, so
+#         a film may run on. With backward + rebound k is 2 lag - 1: if over 0, hops may repeat.
 # For the table, hops of 30 to 90 lines were followed to their end at CR = 0.9, where n is 19 k. The
-# rarest 2 of 100 ends are left out. With surface the last hops exceed n: their lag is over 1/2.
+# rarest 2 of 100 results are left out. With surface they end above n, as their lag is over 1/2.
 #                   + surface     + rebound            + conserve
 #     forward       29 to 37      33 to 48             18 and 19 lines
 #     exact         10 to 18      14 to 30             rest
