@@ -416,10 +416,10 @@ def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None
 #         the car meets the other wall. If k < 0, they shrink until the car rests (with the
 #         correction none, until it is caught). If k = 0, their length stays, or goes up and down.
 #     CR < 1, k > 0: By the law, a hop of n = k (1 + CR)/(1 - CR) lines repeats. Hops of over 2 n
-#         lines shrink, until they have n/2 to 2 n. Short hops grow, or repeat as they are. Why may
-#         a hop repeat that has not n lines? The numbers of surface and rebound, 1/2 and 1, are for
-#         a lag of 1/2. A hop that repeats has the same lag each time, perhaps another one. Then the
-#         numbers are lag and 2 lag. As a lag is at most 1, k and n are at most doubled.
+#         lines shrink, until they have about n/2 to 2 n. Short ones grow, or repeat as they are.
+#         Why may a hop repeat that has not n lines? The numbers of surface and rebound, 1/2 and 1,
+#         are for a lag of 1/2. A hop that repeats has the same lag each time, perhaps another one.
+#         Then the numbers are lag and 2 lag. As a lag is at most 1, k and n are at most doubled.
 #     CR < 1, k <= 0: Hops shrink until the car rests. In a film it then bounces in each line, up to
 #         g dt^2/4 from the wall. With the g and dt above this is 5 mm, too much for is_at_rest, so
 #         a film may run on. With backward + rebound k is 2 lag - 1: if over 0, hops may repeat.
