@@ -196,7 +196,7 @@ def step(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> tuple[float, fl
     free_m, free_mps = MOTIONS[scene.motion](x_m, v_mps, scene.a_mps2, dt_s)
     on_track_m = scene.to_track(free_m)  # the wall, if the move ended beyond one
     is_beyond = on_track_m != free_m
-    # Replay is asked also if v changed its sign: the car may have been beyond a wall and come back.
+    # Replay is called also if v changed sign: the car may have been beyond a wall and come back.
     if scene.correction == "replay" and (is_beyond or v_mps * free_mps < 0):
         x_m, v_mps = replay(scene, x_m, v_mps, dt_s)
         is_bounce = is_beyond or v_mps != free_mps  # without a bounce, v is that of the move
@@ -798,8 +798,8 @@ def film(scene: Scene, number: int, title: str, options: dict[str, str]) -> int:
                 print("No figure differs.")
             elif not is_changed and not (tables and tables[0][0][-1].startswith("yes")):
                 say(example.seen)
-            following = number + 1 if number + 1 in EXAMPLES else "chart"
-            if number in EXAMPLES and keys.where():
+            following = [*EXAMPLES, "chart"][number + 1] if number in EXAMPLES else "-h"
+            if keys.where():
                 print(f"Next: {PYTHON} airtrack.py {following}", flush=True)
     return keys.status if keys else 0
 
