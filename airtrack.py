@@ -420,11 +420,11 @@ def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None
 #         Why may a hop repeat that has not n lines? The numbers of surface and rebound, 1/2 and 1,
 #         are for a lag of 1/2. A hop that repeats has the same lag each time, perhaps another one.
 #         Then the numbers are lag and 2 lag. As a lag is at most 1, k and n are at most doubled.
-#     CR < 1, k <= 0: Hops shrink until the car rests. In a film it then bounces in each line, up to
-#         g dt^2/4 from the wall. With the g and dt above this is 5 mm, too much for is_at_rest, so
-#         a film may run on. With backward + rebound k is 2 lag - 1: if over 0, hops may repeat.
+#     CR < 1, k <= 0: Hops shrink until the car rests: in each line it then bounces, on the wall or,
+#         with rebound, up to g dt^2/4 from it. With the g and dt above this is 5 mm, and a film
+#         runs on. But with backward + rebound k is 2 lag - 1. If this is over 0, hops may repeat.
 # For the table, hops of 30 to 90 lines were followed to their end at CR = 0.9, where n is 19 k. The
-# rarest 2 of 100 results are left out. With surface they end above n, as their lag is over 1/2.
+# rarest 2 of 100 results are left out. If k > 0, surface ends above n: its lag is over 1/2.
 #                   + surface     + rebound            + conserve
 #     forward       29 to 37      33 to 48             18 and 19 lines
 #     exact         10 to 18      14 to 30             rest
