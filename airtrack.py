@@ -103,9 +103,9 @@ def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -
 def conserve(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Put the car where rebound does, at the speed with which it has the right energy there.
 
-    If this energy is too small to get there, put the car on the wall. With the exact motion, only
-    the moment of the bounce is wrong, if it is found. This error is of second order: with half the
-    dt it is a quarter as large. Conserve may throw the car out, too, as rebound does.
+    If this energy is too small to get there, put the car on the wall. With the exact motion, if a
+    bounce is found, only its moment is wrong. This error is of second order: with half the dt it is
+    a quarter as large. Conserve may throw the car out, too, as rebound does.
     """
     overlap_m = x_m - wall_m
     # Take the car back to the wall. E is constant: w^2 = v^2 - 2 a overlap. The bounce leaves CR w.
