@@ -756,7 +756,7 @@ def account(name: str, scene: Scene, until_s: float) -> tuple[str, ...]:
                in pairwise(states) if mark_m is None and v and v * v_mps <= 0]  # the further x
     for figures, last in (hops, 2), (turns_m, 1):  # the first four and the last ones are enough
         figures[4:-last] = ["..."] * (len(figures) > 4 + last)
-    deepest_m = max([abs(mark_m - scene.to_track(mark_m)) for mark_m in bounces.values()] or [0.0])
+    deepest_m = max((abs(at_m - scene.to_track(at_m)) for at_m in bounces.values()), default=0.0)
     return (f"{name}, {scene.fps_target:g} FPS", f"{left} left, {len(bounces) - left} right",
             " ".join(hops) or "-", " ".join(turns_m) or "only at walls" * bool(bounces) or "-",
             f"up to {deepest_m:.3f} m", f"{max(abs(v_mps) for _, v_mps, _ in states):.2f} m/s",

@@ -177,7 +177,7 @@ def test_hops_that_lose_speed_end_where_section_7_says(motion: str, correction: 
     assert max(map(max, found)) >= 0.9 * highest
     k = K[motion] + K[correction]
     if correction == "surface" and k > 0:
-        assert lowest[0] > k * 1.9 / 0.1  # "they end above n"
+        assert lowest[0] > k * 1.9 / 0.1  # "surface ends above n"
     if motion == "forward":  # short hops grow
         assert min(map(min, ends(0.9, 2, 17, 100))) >= 18
     rng, shortest = random.Random(f"{motion} {correction}"), []
@@ -185,7 +185,7 @@ def test_hops_that_lose_speed_end_where_section_7_says(motion: str, correction: 
         n = k * (1 + CR) / (1 - CR)
         lengths, = ends(CR, max(20, 2 * n), max(30, 3 * n), 1)
         shortest.append(min(lengths))
-        if k > 0:  # "until they have n/2 to 2 n"
+        if k > 0:  # "until they have about n/2 to 2 n"
             low, high = (n - 2.1, n + 1.3) if correction == "conserve" else (n / 2, 2 * n)
             assert low <= min(lengths) <= max(lengths) <= high
         elif k == 0 and correction == "rebound":
