@@ -3,19 +3,28 @@
 So its film is a graph: position to the right, time downwards.
 
     python airtrack.py [EXAMPLE] [d] [NAME=VALUE ...] [--fast] [--frames N]
-    python airtrack.py chart [EXAMPLE] [NAME=VALUE ...] [--save FILE]
+    python airtrack.py chart [EXAMPLE] [NAME=VALUE ...]
     python airtrack.py stability [EXAMPLE] [NAME=VALUE ...]
 
-    chart        speed against accuracy; --save draws it as .png, .svg or .pdf
-    stability    the map: where methods fail
-    EXAMPLE      its number, listed by -h; default 0, for chart and stability 10
+    EXAMPLE      the number of an example; without it 0, for chart and stability 10
     d            details after each line: position, velocity, frame rate
-    NAME=VALUE   a setting, listed by -h, on top of the example's own
-    --fast       no pacing, no pauses, no keys: for a pipe or a file
+    NAME=VALUE   a setting that replaces the example's own
+    --fast       no waiting, no keys and no colours: for a pipe or a file
     --frames N   stop after N frames; without it, after 50000
-"""
-# Sections 1 to 7 are the lesson: read them from the top. examples.py has the examples and the keys.
+    chart        speed against accuracy: what each method costs, and how wrong it is
+    stability    the map: at which frame rates each method fails
 
+README.md says what this is good for. A lesson for a class is in .github/lesson.md.
+"""
+# What is for whom?
+#     Sections 1, 2 and 4    the physics: how a car moves and bounces, one frame at a time.
+#     Sections 3, 5 and 6    the film: what a run starts from, how a frame is drawn, the main loop.
+#     Sections 7 and 8       the truth, and a law that says what a bouncing car will do.
+#     Sections 9 and 10      the two experiments: what each method costs, and where it fails.
+#     Sections 11 to 13      printing, checks and the command line. Nobody needs to read them.
+# The file examples.py holds the numbered examples and the keys.
+
+import argparse
 import difflib
 import math
 import os
@@ -24,29 +33,31 @@ import shutil
 import sys
 import textwrap
 import time
-import timeit
 from collections import deque
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import nullcontext
+from contextlib import suppress
 from dataclasses import Field, dataclass, field, fields, replace
-from functools import cache
-from itertools import count, pairwise, takewhile
+from itertools import pairwise
 from statistics import fmean
-from typing import Any
+from typing import Any, NamedTuple
 
-from examples import EXAMPLES, OWN_SCENE, Keys, taken_keys
+from examples import CTRL_C, EXAMPLES, OWN_SCENE, Example, Keys, NoKeys, taken_keys
 
-# ==== 1. Moving: where is the car dt_s later, if there are no walls? ============================
-#     x_m, v_mps   the car's position (m) and velocity (m/s), positive to the right
-#     a_mps2       its constant acceleration (m/s^2): the pull
-#     dt_s         the time step (s): how long a frame lasts
+# ==== 1. Moving =================================================================================
+# Where is the car dt_s later, if there are no walls?
 #
-# The pull changes v during the frame. Euler's methods ignore this: they move the car at the same
-# velocity all through the frame. forward takes that of the frame's start, backward that of its end.
-# (For a constant a, backward is the same as semi-implicit Euler.) Both are of first order: half the
-# dt makes half the error after a given time. exact has no error if a is constant. In free flight
-# the car's energy should not change. Per kilogram it is E = v^2/2 - a x, and each docstring says
-# what a step does to it. (Friction would go into these functions, as an a that depends on v.)
+#     x_m      the position of the car in m. A larger x is further to the right.
+#     v_mps    the velocity of the car in m/s. It is positive if the car moves to the right.
+#     a_mps2   the acceleration of the car in m/s^2. It is the same all the time.
+#     dt_s     the time step in s: how long a frame lasts.
+#
+# The velocity changes during the frame. Euler's methods ignore this change: they move the car at
+# one velocity through the whole frame. The method forward takes the velocity at the start of the
+# frame, and backward takes the velocity at its end. Both are of first order: half the dt makes
+# half the error after a given time. The method exact has no error, because a is constant.
+# For a constant a, backward is the same as the method that is called semi-implicit Euler.
+#
+# In free flight the energy of the car should not change. For each kilogram of the car this energy
+# is E = v^2/2 - a x. The docstring of each method says what one step does to E.
 
 State = tuple[float, float]  # x_m, v_mps
 
@@ -65,37 +76,60 @@ def exact(x_m: float, v_mps: float, a_mps2: float, dt_s: float) -> State:
 
 MOTIONS = {"forward": forward, "backward": backward, "exact": exact}  # name a new one here
 
-# ==== 2. Colliding: the stickiness corrections ==================================================
-#     wall_m       the position of a wall (m)
-#     CR           the coefficient of restitution: speed after a bounce / speed before
+# ==== 2. Colliding ==============================================================================
+# Where is the car after it has met a wall, and how fast is it?
 #
-# A collision is found when a move has ended beyond a wall. A correction takes the x and v of that
-# moment, and returns the x and v after the bounce. The overlap, x - wall, is how far beyond the
-# wall the car is (it is negative at the left wall). Why "stickiness"? Without a correction the car
-# may stick in the wall: see none(). Section 7 tells what becomes of a car that hops on a wall.
+#     wall_m   the position of the wall in m.
+#     CR       the coefficient of restitution: the speed after a bounce / the speed before it.
+#
+# A collision is found when a move has ended beyond a wall. Then one of the five functions below is
+# called. They are the corrections. A correction takes the x and v where the move ended, and returns
+# the x and v after the bounce. The overlap is x - wall: how far beyond the wall the move ended. At
+# the left wall it is negative.
+#
+# Here is one collision at the left wall. The motion is exact, CR is 0.8, a is -20 m/s^2, and a
+# column is 1 cm. In one frame of 0.1 s the car moves from the start to the 0, which is 8 cm beyond
+# the wall. Then each correction puts the car in another place. The last column is the energy E, if
+# we count x from the wall: then a car that stands still at the wall has E = 0.
+#
+#     start              |           *       v = -1.00 m/s   2.90 J/kg
+#     none       *       |                   v =  2.40 m/s   1.28 J/kg
+#     surface    0       *                   v =  2.40 m/s   2.88 J/kg
+#     rebound    0       |     *             v =  2.40 m/s   4.16 J/kg
+#     conserve   0       |     *             v =  1.07 m/s   1.86 J/kg
+#     rewind     0       |    *              v =  1.33 m/s   1.86 J/kg
+#
+# A bounce keeps the part CR of the speed, so it keeps CR^2 of the energy: 0.64 * 2.90 is 1.86.
+# Only conserve and rewind leave the right energy. Only rewind leaves the right place, too.
+#
+# All corrections take the same five arguments, so that step() may call any of them.
 
 def none(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
-    """Reverse v, but leave the car beyond the wall. It may never get out.
+    """Reverse v, but leave the car beyond the wall. It may never get out again.
 
-    A frame later the car may still be beyond the wall. Perhaps CR < 1 has slowed it (example 3). Or
-    the way out is shorter than the way in, as with backward under a pull towards the wall, and with
-    forward under a pull away from it. Then v is reversed again, into the wall: the car is caught.
+    In example 3 the left wall is at 0.25 m, and CR is 0.6:
+        frame 46   The move ends at 0.198 m.   v is reversed from -2.30 to  1.38 m/s.
+        frame 47   The move ends at 0.243 m.   v is reversed from  1.33 to -0.80 m/s.
+        frame 48   The move ends at 0.214 m.   v is reversed from -0.85 to  0.51 m/s.
+    In frame 47 the car was still beyond the wall, because the bounce had slowed it. So its velocity
+    was reversed again, now into the wall: the car is caught. Such a car is said to stick. The other
+    corrections are there to prevent this.
     """
     return x_m, -CR * v_mps
 
 def surface(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Put the car on the wall.
 
-    If the pull is into the wall, this moves the car against the pull. That should cost speed, but v
-    is not made smaller for it. So the car has too much energy.
+    If a points into the wall, this lifts the car against a. Lifting should cost speed, but v is
+    not made smaller. So the car has too much energy.
     """
     return wall_m, -CR * v_mps
 
 def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
-    """Put the car in front of the wall, CR * overlap away. Without a pull it would be there by now.
+    """Put the car in front of the wall, CR * overlap away. If a were 0, it would be there by now.
 
-    If the pull is into the wall, the car has too much energy, for the same reason as with surface.
-    If CR * overlap is longer than the track, the car is thrown out (example 14).
+    If a points into the wall, the car has too much energy, for the same reason as with surface.
+    If CR * overlap is longer than the track, the car is thrown out at the other end (example 14).
     """
     overlap_m = x_m - wall_m
     return wall_m - CR * overlap_m, -CR * v_mps
@@ -103,812 +137,1114 @@ def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -
 def conserve(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Put the car where rebound does, at the speed with which it has the right energy there.
 
-    If this energy is too small to get there, put the car on the wall. With the exact motion, if a
-    bounce is found, only its moment is wrong. This error is of second order: with half the dt it is
-    a quarter as large. Conserve may throw the car out, too, as rebound does.
+    If this energy is too small to get there, put the car on the wall. With the exact motion only
+    the moment of the bounce is wrong. The error is of second order: half the dt makes a quarter of
+    it. Like rebound, conserve may throw the car out.
     """
     overlap_m = x_m - wall_m
-    # Take the car back to the wall. E is constant: w^2 = v^2 - 2 a overlap. The bounce leaves CR w.
-    bounced_mps = CR * math.sqrt(max(0.0, v_mps * v_mps - 2 * a_mps2 * overlap_m))
-    # Take it to its new place. E is constant again: u^2 = (CR w)^2 - 2 a CR overlap.
+    # Take the car back to the wall. E does not change, so its speed w there follows from
+    # w^2 = v^2 - 2 a overlap. Round-off may make w^2 negative. The bounce leaves the speed CR w.
+    w_squared = max(0.0, v_mps * v_mps - 2 * a_mps2 * overlap_m)
+    bounced_mps = CR * math.sqrt(w_squared)
+    # Take the car to its new place. E does not change, so its speed u there follows from
+    # u^2 = (CR w)^2 - 2 a CR overlap.
     u_squared = bounced_mps * bounced_mps - 2 * a_mps2 * CR * overlap_m
     if u_squared < 0:
         return wall_m, math.copysign(bounced_mps, -overlap_m)
     return wall_m - CR * overlap_m, math.copysign(math.sqrt(u_squared), -overlap_m)
 
 def arrival(d_m: float, u_mps: float, a_mps2: float) -> tuple[float, float]:
-    """When the car reaches a wall d_m ahead, and how fast it is there: t_s, w_mps.
+    """When will a car be at a wall d_m ahead of it, and how fast? Returns t_s and w_mps.
 
-    u_mps is its velocity now. u_mps and a_mps2 are positive if they point towards the wall.
+    u_mps is the velocity of the car now. Here u_mps and a_mps2 are positive towards the wall.
     """
-    # Energy gives the speed w at the wall: w^2 = u^2 + 2 a d. (Round-off may make it negative.)
+    # Energy gives the speed w at the wall: w^2 = u^2 + 2 a d. Round-off may make it negative.
     w_mps = math.sqrt(max(0.0, u_mps * u_mps + 2 * a_mps2 * d_m))
-    # The time t follows from the mean velocity, d = t (u + w)/2, or from w = u + a t. If u > 0 take
-    # the first, as w - u may be mostly round-off; otherwise the second, as u + w may be that.
-    return (2 * d_m / (u_mps + w_mps) if u_mps > 0 else (w_mps - u_mps) / a_mps2), w_mps
+    # Two formulas give the time t. One of them adds u and w, and the other subtracts them. If two
+    # nearly equal numbers are subtracted, little but round-off is left. So take the one that adds.
+    if u_mps > 0:
+        t_s = 2 * d_m / (u_mps + w_mps)  # from the mean velocity: d = t (u + w)/2
+    else:
+        t_s = (w_mps - u_mps) / a_mps2  # from w = u + a t. As u is not positive, -u adds.
+    return t_s, w_mps
 
 def rewind(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Take the car back in time to the wall, let it bounce, and move it on to the frame's end.
 
     With the exact motion this is right if the frame holds one bounce and the move ends beyond the
-    wall (example 10). Rewind cannot settle a second bounce. If the pull brings the car back on the
-    track before the frame ends, no collision is found: a missed event (example 18).
+    wall (example 10). Rewind cannot settle a second bounce. If the car turns beyond the wall and is
+    back on the track when the frame ends, no collision is found: a missed event (example 18).
     """
-    # Let time run backwards: v changes its sign, a does not, and the car arrives at the wall.
-    side = math.copysign(1, x_m - wall_m)  # 1 beyond the right wall, -1 beyond the left one
-    t_s, w_mps = arrival(abs(x_m - wall_m), side * v_mps, -side * a_mps2)
+    if x_m > wall_m:
+        side = 1  # the car is beyond the right wall
+    else:
+        side = -1  # the car is beyond the left wall
+    # Let time run backwards: v changes its sign, and a does not. Then the car arrives at the wall.
+    t_s, w_mps = arrival(side * (x_m - wall_m), side * v_mps, -side * a_mps2)
+    # Let it bounce, and let the same time run forwards.
     x_m, v_mps = exact(wall_m, -side * CR * w_mps, a_mps2, t_s)
-    return (wall_m if side * (x_m - wall_m) > 0 else x_m), v_mps  # beyond again: on the wall
+    if side * (x_m - wall_m) > 0:  # it is beyond the wall again: put it on the wall
+        return wall_m, v_mps
+    return x_m, v_mps
 
 CORRECTIONS = {"none": none, "surface": surface, "rebound": rebound, "conserve": conserve,
                "rewind": rewind}
-EVERY_CORRECTION = (*CORRECTIONS, "replay")  # replay redoes the whole frame: see section 4
-EXACT_ONLY = ("rewind", "replay")  # they need the exact motion
-# The five methods that example 21 and the chart compare, by their letters:
+
+# The sixth correction, replay, works out a whole frame anew: see section 7.
+ALL_CORRECTIONS = [*CORRECTIONS, "replay"]
+EXACT_ONLY = ["rewind", "replay"]  # they need the exact motion
+
+# A method is a motion and a correction. Example 21 and the chart compare five methods, which have
+# the letters a to e. Whoever reads nothing else should read this table. The energy is that of a car
+# that is accelerated to the wall on which it bounces.
+#
+#     method                 order   energy      it fails if                  take it for
+#     a  backward + rebound  1       goes up     heights and times matter     scenery
+#                                    and down
+#     b  exact + rebound     1       grows       the car should come to       nothing: c costs
+#                                                rest: it may hop for ever    hardly more
+#     c  exact + conserve    2       right       the overlap is longer than   most things
+#                                                the track, or an event is
+#                                                missed
+#     d  exact + rewind      exact   right       a frame holds two bounces,   short frames
+#                                                or an event is missed
+#     e  exact + replay      exact   right       never: dt may have any       the truth
+#                                                length
+# The order is exact if nothing but round-off is wrong. The motion exact, so each of b to e, needs a
+# constant a.
 METHODS = {"a": ("backward", "rebound"), "b": ("exact", "rebound"), "c": ("exact", "conserve"),
            "d": ("exact", "rewind"), "e": ("exact", "replay")}
 
-# ==== 3. The scene: all that a run starts from ==================================================
+# ==== 3. The scene ==============================================================================
+# What does a run start from?
 
-def setting(default: Any, meaning: str, allowed: Any = (False, True), unit: str = "") -> Any:
-    """A row of the table below. allowed: a number's least and largest value, or all the choices."""
-    return field(default=default, metadata={"meaning": meaning, "allowed": allowed, "unit": unit})
+def a_number(default: float, unit: str, least: float, largest: float, meaning: str) -> Any:
+    """A setting that is a number, with its unit and its range.
 
-@dataclass(frozen=True)
+    The metadata of a field is a dictionary that dataclasses keep for us and do not use. Here the
+    command line finds in it what is allowed, so that this is said only once.
+    """
+    metadata = {"unit": unit, "least": least, "largest": largest, "meaning": meaning}
+    return field(default=default, metadata=metadata)
+
+def a_choice(default: Any, choices: list[Any], meaning: str) -> Any:
+    """A setting that is one of several choices."""
+    return field(default=default, metadata={"choices": choices, "meaning": meaning})
+
+YES_OR_NO = [False, True]
+
+@dataclass(frozen=True)  # frozen: no run can change its scene. replace() makes a changed copy.
 class Scene:
-    """The settings. The default method is that of the tutorial in README.md. Raises BadInput."""
+    """The settings of a run. The unit is part of a name: x_m is in m.
 
-    x_m: float = setting(1.1, "starting position", (-1000, 1000), "m")
-    v_mps: float = setting(0.0, "starting velocity: speed to the right", (-1000, 1000), "m/s")
-    a_mps2: float = setting(0.0, "acceleration: the pull, gravity g", (-1000, 1000), "m/s^2")
-    left_edge_m: float = setting(0.25, "the left wall", (-1000, 1000), "m")
-    right_edge_m: float = setting(2.2, "the right wall", (-1000, 1000), "m")
-    CR: float = setting(0.8, "coefficient of restitution: speed after / before a bounce", (0, 1))
-    motion: str = setting("backward", "how the car is moved", tuple(MOTIONS))
-    correction: str = setting("rebound", "stickiness correction of a collision", EVERY_CORRECTION)
-    fps_target: float = setting(30.0, "frames a second; time step dt = 1/fps", (0.1, 1000), "1/s")
-    use_observed_dt: bool = setting(False, "dt is the time that the frame before took")
-    jitter: float = setting(0.0, "frame lengths vary by up to this fraction", (0, 0.9))
-    auto_off: bool = setting(True, "stop when the car rests against a wall")
-    m_to_px: float = setting(55.0, "zoom; a pixel is a character", (0.001, 1000), "px/m")
-    width_px: int = setting(135, "width of the picture, which begins at x = 0", (10, 1000), "px")
-    show_start_mark: bool = setting(False, "draw a . where the car started")
-    show_collision_mark: bool = setting(True, "in a collision, draw a 0 where the move ended")
-    show_exact_mark: bool = setting(False, "draw an o where the car truly is")
-    show_methods: bool = setting(False, "draw a to e where the chart's methods have the car")
+    Raises ValueError if a setting is out of its range, or if two settings exclude each other.
+    """
+
+    x_m: float = a_number(1.1, "m", -1000, 1000, "position at the start")
+    v_mps: float = a_number(0.0, "m/s", -1000, 1000, "velocity at the start, positive to the right")
+    a_mps2: float = a_number(
+        0.0, "m/s^2", -1000, 1000, "acceleration, gravity g: positive to the right")
+    left_edge_m: float = a_number(0.25, "m", -1000, 1000, "position of the left wall")
+    right_edge_m: float = a_number(2.2, "m", -1000, 1000, "position of the right wall")
+    CR: float = a_number(0.8, "", 0, 1, "coefficient of restitution: speed after / before a bounce")
+    motion: str = a_choice("backward", list(MOTIONS), "how the car is moved")
+    correction: str = a_choice("rebound", ALL_CORRECTIONS, "how a collision is settled")
+    fps_target: float = a_number(30.0, "1/s", 0.1, 1000, "frames a second; dt is 1/fps_target")
+    use_observed_dt: bool = a_choice(False, YES_OR_NO, "dt is how long the frame before lasted")
+    jitter: float = a_number(0.0, "", 0, 0.9, "frames are longer or shorter by up to this fraction")
+    auto_off: bool = a_choice(True, YES_OR_NO, "stop when the car is at rest at a wall")
+    m_to_px: float = a_number(55.0, "px/m", 0.001, 1000, "zoom: columns for each metre")
+    width_px: int = a_number(135, "px", 10, 1000, "columns of the picture, which begins at x = 0")
+    show_start_mark: bool = a_choice(False, YES_OR_NO, "draw a . where the car started")
+    show_collision_mark: bool = a_choice(
+        True, YES_OR_NO, "draw a 0 where a move ended beyond a wall")
+    show_exact_mark: bool = a_choice(False, YES_OR_NO, "draw an o where the car truly is")
+    show_methods: bool = a_choice(False, YES_OR_NO, "draw a to e where five methods have the car")
 
     def __post_init__(self) -> None:
-        check(self)
+        """Refuse a scene that is not allowed. Python calls this when a scene is made."""
+        check(self)  # see section 12
 
-    def to_track(self, x_m: float) -> float:
-        """Return x_m itself or, if x_m is beyond a wall, the position of that wall."""
+    def wall_passed(self, x_m: float) -> float | None:
+        """The position of the wall that x_m is beyond, or None if x_m is on the track."""
         if x_m < self.left_edge_m:
             return self.left_edge_m
-        return self.right_edge_m if x_m > self.right_edge_m else x_m
+        if x_m > self.right_edge_m:
+            return self.right_edge_m
+        return None
+
+    def to_track(self, x_m: float) -> float:
+        """The place on the track that is nearest to x_m."""
+        wall_m = self.wall_passed(x_m)
+        if wall_m is None:
+            return x_m
+        return wall_m
 
 # ==== 4. A frame ================================================================================
+# How does the car get from one frame to the next?
 
 def step(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> tuple[float, float, float | None]:
-    """One frame of dt_s: move the car, then settle any collision. Returns x_m, v_mps, mark_m.
+    """Move the car by a frame of dt_s, and settle a collision. Returns x_m, v_mps and mark_m.
 
-    mark_m is None or, in a collision, where the move alone ended. So one sees how deep it was.
+    mark_m is None or, in a collision, where the move alone ended. The film draws a 0 there.
     """
-    free_m, free_mps = MOTIONS[scene.motion](x_m, v_mps, scene.a_mps2, dt_s)
-    on_track_m = scene.to_track(free_m)  # the wall, if the move ended beyond one
-    is_beyond = on_track_m != free_m
-    # Replay is called also if v changed sign: the car may have been beyond a wall and come back.
-    if scene.correction == "replay" and (is_beyond or v_mps * free_mps < 0):
-        x_m, v_mps = replay(scene, x_m, v_mps, dt_s)
-        is_bounce = is_beyond or v_mps != free_mps  # without a bounce, v is that of the move
-        return x_m, v_mps, (free_m if is_bounce else None)
-    if is_beyond:
-        correction = CORRECTIONS[scene.correction]
-        return *correction(free_m, free_mps, on_track_m, scene.a_mps2, scene.CR), free_m
-    return free_m, free_mps, None
+    # Move the car as if there were no walls.
+    move = MOTIONS[scene.motion]
+    free_m, free_mps = move(x_m, v_mps, scene.a_mps2, dt_s)
+    wall_m = scene.wall_passed(free_m)
+    # Replay works out the whole frame anew. It is also asked if v has changed its sign, because
+    # the car may have turned beyond a wall.
+    if scene.correction == "replay" and (wall_m is not None or v_mps * free_mps < 0):
+        x_m, v_mps, has_bounced = replay(scene, x_m, v_mps, dt_s)
+        if has_bounced:
+            return x_m, v_mps, free_m
+        return x_m, v_mps, None
+    # The move ended on the track: there is nothing to settle.
+    if wall_m is None:
+        return free_m, free_mps, None
+    # The move ended beyond a wall: settle the collision.
+    correction = CORRECTIONS[scene.correction]
+    x_m, v_mps = correction(free_m, free_mps, wall_m, scene.a_mps2, scene.CR)
+    return x_m, v_mps, free_m
 
-GRAZE_M = 5e-11  # far more than the round-off of a position
+# ==== 5. Drawing ================================================================================
+# How does a frame become a line of text?
 
-def replay(scene: Scene, x_m: float, v_mps: float, t_s: float) -> State:
-    """Replace the move: follow the exact motion from the frame's start, from bounce to bounce.
-
-    This is right for several bounces in a frame (example 15), and even for infinitely many. The
-    tests compare it with a reference of 60 digits. Think of a ball in a room. The wall that the car
-    is pulled to is the floor, the other one is the ceiling, and h is the height above the floor. If
-    the ball is on the floor and too slow for the ceiling, hops() takes all its whole hops at once.
-
-    A graze is a touch of the ceiling at almost no speed. Round-off would decide whether there is a
-    touch. So a ball that would rise less than GRAZE_M higher than the ceiling turns without one.
-    With the default walls, each such miss makes an error of up to 4e-5 m, and these errors add up.
-    """
-    up, floor_m = (-1, scene.right_edge_m) if scene.a_mps2 > 0 else (1, scene.left_edge_m)
-    room_m, g_mps2, CR = scene.right_edge_m - scene.left_edge_m, abs(scene.a_mps2), scene.CR
-    h_m, v_mps = up * (scene.to_track(x_m) - floor_m), up * v_mps
-    while v_mps or g_mps2:  # otherwise it rests for good. t_s is what is left of the frame.
-        if v_mps > 0 and v_mps * v_mps >= 2 * g_mps2 * (room_m - h_m + GRAZE_M):  # to the ceiling
-            flight_s, w_mps = arrival(room_m - h_m, v_mps, -g_mps2)
-            bounced = room_m, -CR * w_mps
-        elif v_mps < 0 or h_m > 0:  # falling, now or soon: to the floor
-            flight_s, w_mps = arrival(h_m, -v_mps, g_mps2)
-            bounced = 0.0, CR * w_mps
-        else:  # on the floor, and too slow for the ceiling: hops until the frame's end
-            t_s, v_mps = hops(v_mps, g_mps2, CR, t_s)
-            break
-        if flight_s > t_s:
-            break  # the frame ends in flight
-        t_s -= flight_s
-        h_m, v_mps = bounced
-    h_m, v_mps = exact(h_m, v_mps, -g_mps2, t_s)
-    return scene.to_track(floor_m + up * h_m), up * v_mps  # round-off must not leave it beyond
-
-def hops(v_mps: float, g_mps2: float, CR: float, t_s: float) -> tuple[float, float]:
-    """Take in one go all whole hops that fit into t_s. Returns the time that is left, and v then.
-
-    The first hop lasts T = 2 v/g, and each hop CR times as long as the one before. So all of them,
-    infinitely many, last T (1 + CR + CR^2 + ...) = T/(1 - CR). Then comes the Zeno point: rest.
-    """
-    hop_s = 2 * v_mps / g_mps2
-    zeno_s = hop_s / (1 - CR) if CR < 1 else math.inf
-    if hop_s > t_s:  # not even one hop fits
-        return t_s, v_mps
-    if zeno_s <= t_s or t_s + hop_s == t_s:  # all fit, or hop_s is lost in round-off
-        return 0.0, 0.0
-    if CR == 1:
-        return math.fmod(t_s, hop_s), v_mps
-    # n hops last zeno_s (1 - CR^n). log1p(y) is log(1 + y) and expm1(y) is e^y - 1, precisely.
-    n = math.floor(math.log1p(-t_s / zeno_s) / math.log(CR))
-    return t_s + zeno_s * math.expm1(n * math.log(CR)), v_mps * CR**n
-
-# ==== 5. Drawing: one frame, one line, painted from back to front ===============================
-
-def paint(line: bytearray, mark: str, x_px: float) -> None:
-    """Paint the mark in its column, over what is there, if the line has that column."""
-    column = round(x_px)  # int would put -0.9 into column 0
+def paint(line: list[str], mark: str, x_px: float) -> None:
+    """Put the mark into its column, over what is there, if the line has that column."""
+    column = round(x_px)
     if 0 <= column < len(line):
-        line[column] = ord(mark)
+        line[column] = mark
 
-def render_track(scene: Scene, x_m: float, mark_m: float | None = None,
-                 others: Mapping[str, State] = {}) -> str:
-    """The line of a frame: scene.width_px characters. others: the other cars, by their marks."""
-    line, zoom = bytearray(b" " * scene.width_px), scene.m_to_px
+def render_track(scene: Scene, x_m: float, mark_m: float | None, others: dict[str, State]) -> str:
+    """Draw a frame: one line of scene.width_px columns. others has the other cars by their marks.
+
+    The line is painted from back to front: what is painted later covers what was there.
+    """
+    line = [" "] * scene.width_px
     if scene.show_collision_mark and mark_m is not None:
-        paint(line, "0", mark_m * zoom)
+        paint(line, "0", mark_m * scene.m_to_px)
     if scene.show_start_mark:
-        paint(line, ".", scene.x_m * zoom)
-    for mark in others:
-        paint(line, mark, others[mark][0] * zoom)
-    paint(line, "|", scene.left_edge_m * zoom)
-    paint(line, "|", scene.right_edge_m * zoom)
-    column, last = round(x_m * zoom), scene.width_px - 1
-    # The car comes last, so no wall hides it. Outside the picture it is < or >, at the edge.
-    mark, column = ("<", 0) if column < 0 else (">", last) if column > last else ("*", column)
-    paint(line, mark, column)
-    return line.decode()
+        paint(line, ".", scene.x_m * scene.m_to_px)
+    paint(line, "|", scene.left_edge_m * scene.m_to_px)
+    paint(line, "|", scene.right_edge_m * scene.m_to_px)
+    for mark, (other_m, _) in others.items():
+        paint(line, mark, other_m * scene.m_to_px)
+    # The car comes last, so that nothing hides it. Outside the picture it is < or >, at the edge.
+    column = round(x_m * scene.m_to_px)
+    if column < 0:
+        line[0] = "<"
+    elif column >= scene.width_px:
+        line[-1] = ">"
+    else:
+        line[column] = "*"
+    return "".join(line)
+
+# A terminal changes its colour where it reads "\033[" and a number and "m". 0 ends the colour.
+COLOURED_MARKS = str.maketrans({
+    "*": "\033[33m*\033[0m",  # yellow
+    "o": "\033[32mo\033[0m",  # green
+    "0": "\033[31m0\033[0m",  # red
+})
 
 def details_text(x_m: float, v_mps: float, fps: float, truth: State | None) -> str:
     """What d adds to a line: position, velocity, frame rate and, given the truth, the error."""
     text = f"x = {x_m:6.2f}, v = {v_mps:5.2f}, FPS = {fps:3.0f}"
-    return f"{text}, err = {x_m - truth[0]:9.2e}" if truth else text
+    if truth is None:
+        return text
+    true_m, _ = truth
+    return f"{text}, err = {x_m - true_m:9.2e}"
 
-# ==== 6. The run: the main loop =================================================================
+# ==== 6. The run ================================================================================
+# How do the frames become a film that runs at the right speed?
+# The main loop is run(), at the end of this section.
 
-def planned(scene: Scene) -> Iterator[tuple[float, float]]:
-    """Yield how long each frame should last, and the target rate (FPS), the same in every run."""
-    for frame in count(1):
-        fraction = 0.618 * frame % 1  # from 0 to 1; the golden ratio's 0.618 spreads it evenly
-        yield (1 + scene.jitter * (2 * fraction - 1)) / scene.fps_target, scene.fps_target
+def planned_length(scene: Scene, frame: int) -> float:
+    """How long this frame should last, in s. With jitter, frames are irregular in a fixed way."""
+    # The multiples of 0.618 (the golden ratio) without their whole parts are spread evenly over
+    # the numbers from 0 to 1.
+    from_0_to_1 = (0.618 * frame) % 1
+    from_minus_1_to_1 = 2 * from_0_to_1 - 1
+    return (1 + scene.jitter * from_minus_1_to_1) / scene.fps_target
 
-STALL_S, STALL_FRAMES = 0.15, 1.5  # a stall: over 0.15 s, and over 1.5 times as long as due
-LATE_S = 0.02  # a delay of at most this, or of at most a frame, is made up by the next frames
+STALL_S = 0.15  # people notice a delay of about 0.1 s. A longer one is a stall.
 
-def paced(scene: Scene, keys: Keys) -> Iterator[tuple[float, float]]:
-    """Wait until each frame is due. Yield how long the last one took, and the rate (FPS).
+class Pace:
+    """The pace of a film: when is the next frame due, and how long did it take to come?"""
 
-    After a pause or a stall the planned length counts, so that the car does not leap. The deadlines
-    are absolute. If each frame slept for dt, it would last dt plus the time to compute and print.
-    """
-    began_s = deadline_s = time.perf_counter() - 1 / scene.fps_target  # the first is due about now
-    for due_s, fps in planned(scene):
-        deadline_s += due_s
-        was_paused = keys.wait_until(deadline_s)
-        if keys.why_quit:
-            return
+    def __init__(self, scene: Scene, keys: Keys | NoKeys) -> None:
+        self.scene = scene
+        self.keys = keys
+        self.shown_s = time.perf_counter() - planned_length(scene, 1)  # so frame 1 is due now
+        self.due_s = self.shown_s
+
+    def wait(self, frame: int, t_s: float) -> tuple[float, float]:
+        """Wait until the frame is due. Returns how long that took since the frame before, and FPS.
+
+        The frames are due at planned moments. If each frame slept for dt instead, it would last
+        longer than dt, because computing and printing take time, too.
+        """
+        planned_s = planned_length(self.scene, frame)
+        self.due_s += planned_s
+        is_measured = self.keys.wait_until(self.due_s, frame - 1, t_s)
         now_s = time.perf_counter()
-        took_s = now_s - began_s or due_s  # the difference is 0 if the clock has not ticked yet
-        rate = fps if was_paused else 1 / took_s
-        if was_paused or took_s > max(STALL_S, STALL_FRAMES * due_s):
-            took_s = due_s
-        yield took_s, rate
-        began_s = now_s
-        if was_paused or now_s > deadline_s + max(LATE_S, due_s):  # do not race to catch up
-            deadline_s = now_s
+        lasted_s = max(now_s - self.shown_s, 1e-6)  # the clock may not have ticked in between
+        self.shown_s = now_s
+        # After a pause or a stall the plan begins anew from now. Otherwise the film would race to
+        # catch up.
+        if not is_measured or now_s > self.due_s + STALL_S:
+            self.due_s = now_s
+        # Also, the planned length counts then. Otherwise the car would leap.
+        if not is_measured:
+            return planned_s, self.scene.fps_target
+        if lasted_s > planned_s + STALL_S:
+            return planned_s, 1 / lasted_s
+        return lasted_s, 1 / lasted_s
 
 def truth_of(scene: Scene) -> Scene:
     """The same scene, solved exactly. A start beyond a wall is moved to the wall."""
     return replace(scene, motion="exact", correction="replay", x_m=scene.to_track(scene.x_m))
 
 def scenes_beside(scene: Scene) -> dict[str, Scene]:
-    """The scenes of the film's other cars, by their marks, from back to front."""
+    """The scenes of the other cars in the film, by their marks, from back to front."""
     truth = truth_of(scene)
-    methods = {letter: replace(truth, motion=motion, correction=correction)
-               for letter, (motion, correction) in METHODS.items() if scene.show_methods}
-    return methods | ({"o": truth} if scene.show_exact_mark else {})
+    scenes = {}
+    if scene.show_methods:
+        for letter, (motion, correction) in METHODS.items():
+            scenes[letter] = replace(truth, motion=motion, correction=correction)
+    if scene.show_exact_mark:
+        scenes["o"] = truth
+    return scenes
+
+def step_all(scenes: dict[str, Scene], cars: dict[str, State], dt_s: float) -> dict[str, State]:
+    """Take the other cars a frame further."""
+    moved = {}
+    for mark, (x_m, v_mps) in cars.items():
+        x_m, v_mps, _ = step(scenes[mark], x_m, v_mps, dt_s)
+        moved[mark] = x_m, v_mps
+    return moved
+
+REST_M = 0.001  # 1 mm: far less than a column, even in a picture that is zoomed in
+
+def rest_frames(scene: Scene) -> int:
+    """For how many frames a car must be still to be at rest: for 1/3 s, but for ten at least.
+
+    Somebody who watches sees in 1/3 s that the car does not move. At a low rate 1/3 s is only a few
+    frames, and a car that turns may be slow for so long.
+    """
+    return max(10, round(scene.fps_target / 3))
+
+def resting_place(scene: Scene, x_m: float) -> float:
+    """The wall at which the car can rest: the one that a points to, or the nearer one if a is 0."""
+    middle_m = (scene.left_edge_m + scene.right_edge_m) / 2
+    is_right = scene.a_mps2 > 0
+    if scene.a_mps2 == 0:
+        is_right = x_m > middle_m
+    if is_right:
+        return scene.right_edge_m
+    return scene.left_edge_m
 
 def is_at_rest(scene: Scene, v_mps: float, last_m: deque[float]) -> bool:
-    """Whether the car rests against the wall that it is pulled to or, without a pull, against any.
+    """Whether the car is at rest at a wall. last_m has its positions in the last frames.
 
-    It rests if in the last frames its mean distance from the wall is at most 1 mm, and if its v is
-    at most what the pull adds in that time. (The pull may give it some v in each frame.)
+    Some methods never leave the car quite still, so its mean distance from the wall must be small.
+    And v must be so small that a could have made it in these frames: with some methods a gives a
+    car at rest a new v in each frame.
     """
-    side = scene.a_mps2 or last_m[-1] - (scene.left_edge_m + scene.right_edge_m) / 2
-    wall_m = scene.right_edge_m if side > 0 else scene.left_edge_m
-    most_m = 0.001 * len(last_m)  # the sum of the distances if their mean is 1 mm
-    return (abs(last_m[-1] - wall_m) <= most_m and len(last_m) == last_m.maxlen
-            and abs(v_mps) <= abs(scene.a_mps2) * len(last_m) / scene.fps_target
-            and sum(abs(x_m - wall_m) for x_m in last_m) <= most_m)
+    if len(last_m) < rest_frames(scene):
+        return False
+    wall_m = resting_place(scene, last_m[-1])
+    if abs(last_m[-1] - wall_m) > REST_M * len(last_m):
+        return False  # this position alone makes the mean too large, so do not work it out
+    mean_m = fmean([abs(x_m - wall_m) for x_m in last_m])
+    lasted_s = len(last_m) / scene.fps_target
+    return mean_m <= REST_M and abs(v_mps) <= abs(scene.a_mps2) * lasted_s
 
-def run(scene: Scene, details: bool, max_frames: int, keys: Keys | None) -> None:
-    """Film the scene until a key, the car at rest or max_frames ends it, and say which it was."""
+class Shown(NamedTuple):
+    """What a film has shown."""
+
+    frames: int
+    collisions: list[int]  # the frames in which a collision was found
+    is_resting: bool  # whether the car was at rest in the last frame
+
+def run(scene: Scene, has_details: bool, max_frames: int, keys: Keys | NoKeys) -> Shown:
+    """Show the film until a key, the car at rest or max_frames ends it, and say which it was."""
     x_m, v_mps = scene.x_m, scene.v_mps
-    beside = scenes_beside(scene)
-    others = {mark: (other.x_m, other.v_mps) for mark, other in beside.items()}
-    last_m = deque[float](maxlen=max(10, round(scene.fps_target / 3)))  # 1/3 s, at least 10
-    frame, t_s, why = 0, 0.0, "that is the frame limit"
-    beats = paced(scene, keys) if keys else planned(scene)
-    for frame, (length_s, fps) in zip(range(1, max_frames + 1), beats):  # no wait after the last
-        # Move the car and settle its collision; then do the same for the other cars, if any.
-        dt_s = length_s if scene.use_observed_dt else 1 / scene.fps_target
-        t_s += dt_s
-        x_m, v_mps, mark_m = step(scene, x_m, v_mps, dt_s)
-        others = others and {mark: step(beside[mark], *xv, dt_s)[:2] for mark, xv in others.items()}
-        # Draw. Only a terminal gets colours.
-        line = render_track(scene, x_m, mark_m, others)
-        text = details_text(x_m, v_mps, fps, others.get("o")) if details else ""
-        sys.stdout.write(f"{inked(line) if keys else line}{text}\n")
-        if keys:
-            keys.count(frame, t_s)
-        # Is it at rest?
-        last_m.append(x_m)
-        if scene.auto_off and is_at_rest(scene, v_mps, last_m):
-            why = "the car is at rest against a wall"
-            break
-    if keys:
-        why = keys.why_quit or why
-    print(f"Stopped after {frame} frame{'s' * (frame != 1)}, t = {t_s:.2f} s: {why}.", flush=True)
+    other_scenes = scenes_beside(scene)
+    others = {mark: (other.x_m, other.v_mps) for mark, other in other_scenes.items()}
+    frame, t_s = 0, 0.0
+    collisions: list[int] = []
+    last_m = deque[float](maxlen=rest_frames(scene))  # it forgets the oldest position by itself
+    is_resting = False
+    pace = Pace(scene, keys)
+    try:
+        while frame < max_frames and not (is_resting and scene.auto_off):
+            # Wait until the next frame is due.
+            length_s, fps = pace.wait(frame + 1, t_s)
+            if keys.why_quit:
+                break
+            # Move the car and settle its collision. Then do the same for the other cars.
+            dt_s = length_s if scene.use_observed_dt else 1 / scene.fps_target
+            x_m, v_mps, mark_m = step(scene, x_m, v_mps, dt_s)
+            others = step_all(other_scenes, others, dt_s)
+            # Draw the frame.
+            line = render_track(scene, x_m, mark_m, others)
+            if keys.has_colours:
+                line = line.translate(COLOURED_MARKS)
+            if has_details:
+                line += details_text(x_m, v_mps, fps, others.get("o"))
+            print(line)
+            # Keep what is to be told when the film is over.
+            frame += 1
+            t_s += dt_s
+            if mark_m is not None:
+                collisions.append(frame)
+            last_m.append(x_m)
+            is_resting = is_at_rest(scene, v_mps, last_m)
+    except KeyboardInterrupt:
+        keys.press(CTRL_C)
+    if keys.why_quit:
+        why = keys.why_quit
+    elif is_resting and scene.auto_off:
+        why = "the car is at rest at a wall"
+    else:
+        why = "that is the frame limit"
+    print(f"Stopped after {frame} frames, t = {t_s:.2f} s: {why}.", flush=True)
+    return Shown(frame, collisions, is_resting)
 
-# ==== 7. The law of the hops ====================================================================
-# A car hops on the wall that it is pulled to. Think of this wall as a floor: up is away from it.
-# Each hop should last CR times as long as the one before. Count a hop in lines of the film, from
-# one in which a bounce is found to the next such line. Then a long hop is followed, on average, by
-#     next = CR (hop + k) + k    lines, where k is the motion's number plus the correction's:
-#     forward 1   exact 0   backward -1    surface 1/2   rebound 1   conserve 0   none 0 (at CR = 1)
-# Rewind and replay need no number: where they are right, their hops are right, too. Here is a hop
-# of 9 lines with exact + rebound, so k is 1. The law predicts 0.8 (9 + 1) + 1 = 9 lines again.
-#     0:   0    |   *                    v =  0.80    The hop begins upwards, at u = 0.80 m/s.
-#     1:        |          *             v =  0.60
-#     2:        |               *        v =  0.40    CR is 0.8, and dt is 0.1 s.
-#     3:        |                  *     v =  0.20    A column is 1 cm.
-#     4:        |                   *    v =  0.00    The pull g is 2 m/s^2. So in each frame
-#     5:        |                  *     v = -0.20    the car gets g dt = 0.20 m/s downwards.
+# ==== 7. The truth ==============================================================================
+# What would the car really do?
+#
+# The correction replay knows it, for a frame of any length: one step() of 20 s with motion=exact
+# and correction=replay is where the car truly is after 20 s. The film's o, the chart and the map
+# rely on this. So the tests compare it with a reference that is worked out with 60 digits.
+#
+# Think of a ball in a room. The wall to which the car is accelerated is the floor, and the other
+# wall is the ceiling. h is the height of the ball above the floor. The ball flies from bounce to
+# bounce, and arrival() says when each flight ends.
+#
+# At CR < 1 each hop on the floor lasts CR times as long as the hop before. So infinitely many hops
+# take a finite time: if the first hop lasts T, all of them last T (1 + CR + CR^2 + ...), and this
+# sum is T/(1 - CR). The moment at which they end is called the Zeno point. From then on the ball
+# is at rest. Nobody can follow infinitely many hops one by one, so a ball that would rise less
+# than GRAZE_M is at rest here. The heights of the hops shrink so fast that a few hundred of them
+# are enough, as a rule.
+
+GRAZE_M = 5e-11  # far more than the round-off of a position, and less than an atom's width
+
+def next_bounce(h_m: float, rise_mps: float, g_mps2: float,
+                room_m: float) -> tuple[bool, float, float]:
+    """Where, when and how fast does the ball meet the next wall?
+
+    h_m is its height, and rise_mps is its velocity, upwards. Returns whether the wall is the
+    floor, the time until then in s, and the speed there in m/s. A ball may touch the ceiling at
+    almost no speed. Round-off would decide whether it does. So a ball that would get less than
+    GRAZE_M beyond the ceiling does not meet it.
+    """
+    # To get so high takes the energy g times the height.
+    energy_to_ceiling = g_mps2 * (room_m - h_m + GRAZE_M)
+    if rise_mps > 0 and rise_mps * rise_mps / 2 >= energy_to_ceiling:
+        flight_s, speed_mps = arrival(room_m - h_m, rise_mps, -g_mps2)
+        return False, flight_s, speed_mps
+    flight_s, speed_mps = arrival(h_m, -rise_mps, g_mps2)
+    return True, flight_s, speed_mps
+
+def replay(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> tuple[float, float, bool]:
+    """Follow the exact motion for dt_s, from bounce to bounce. Returns x_m, v_mps, has_bounced."""
+    if scene.a_mps2 > 0:
+        up, floor_m = -1, scene.right_edge_m  # upwards is to the left
+    else:
+        up, floor_m = 1, scene.left_edge_m  # upwards is to the right
+    room_m = scene.right_edge_m - scene.left_edge_m
+    g_mps2 = abs(scene.a_mps2)
+    h_m = up * (scene.to_track(x_m) - floor_m)
+    rise_mps = up * v_mps
+    left_s = dt_s  # the time that is left until the frame ends
+    has_bounced = False
+    is_on_floor = False  # whether its last bounce was on the floor
+    while rise_mps != 0 or g_mps2 != 0:  # otherwise nothing moves the ball
+        is_floor_next, flight_s, speed_mps = next_bounce(h_m, rise_mps, g_mps2, room_m)
+        if scene.CR == 1 and is_on_floor and is_floor_next:
+            # From now on all hops last equally long. Leave out those that fit in as a whole.
+            left_s %= flight_s
+        if flight_s > left_s:
+            break  # the frame ends before the ball gets there
+        left_s -= flight_s
+        has_bounced = True
+        is_on_floor = is_floor_next
+        if is_on_floor:
+            h_m, rise_mps = 0.0, scene.CR * speed_mps
+        else:
+            h_m, rise_mps = room_m, -scene.CR * speed_mps
+        if is_on_floor and rise_mps * rise_mps / 2 <= g_mps2 * GRAZE_M:
+            return floor_m, 0.0, has_bounced  # at rest, as it cannot rise by GRAZE_M
+    h_m, rise_mps = exact(h_m, rise_mps, -g_mps2, left_s)
+    x_m = scene.to_track(floor_m + up * h_m)  # round-off must not leave it beyond a wall
+    return x_m, up * rise_mps, has_bounced
+
+# ==== 8. The law of the hops ====================================================================
+# Why do some cars hop for ever, and others lie still too soon?
+# There is no code here. Every line can be checked with pen and paper.
+#
+# A car hops on the wall to which it is accelerated. Think of this wall as a floor: up is away from
+# it, and g is the size of a. All frames are equally long. Count each hop in lines of the film: from
+# a line in which a collision is found to the next such line.
+#
+#     u      the first speed of the hop, upwards. The car has it where the correction put it (*).
+#     w      the last speed of the hop, downwards. The car has it where the last move ended (0).
+#     drop   how much lower the hop ends (its last 0) than it begins (its first *), in m.
+#     way    hop g dt^2/2, in m: how far the mean of u and w takes the car in one frame, by (1).
+#     m      the number of the motion: forward 1, exact 0, backward -1.
+#
+# Here is a hop with exact + rebound. CR is 0.8, g is 2 m/s^2, dt is 0.1 s, a column is 1 cm.
+#     0:   0    |   *                    v =  0.80    The hop begins 4 cm above the floor, with
+#     1:        |          *             v =  0.60    u = 0.80 m/s.
+#     2:        |               *        v =  0.40
+#     3:        |                  *     v =  0.20    In each frame the car gets g dt, which is
+#     4:        |                   *    v =  0.00    0.20 m/s, downwards.
+#     5:        |                  *     v = -0.20
 #     6:        |               *        v = -0.40
 #     7:        |          *             v = -0.60
-#     8:        |   *                    v = -0.80    The move ends at the 0 of line 9, downwards at
-#     9:   0    |   *                    v =  0.80    w = 1.00 m/s. Then comes the rebound.
-# Why this law? From u upwards to w downwards, each frame of the hop adds g dt:
-#     (1)  u + w = hop g dt      0.8 + 1.0 = 9 * 0.2
-# How much larger is w than u? A bounce is found late, by a part of a frame. Call this part the lag:
-# on average it is 1/2. In this time the car falls below the floor and gains lag g dt. So at the
-# floor it had w - lag g dt (about 0.9). With the exact motion a car comes down as fast as it rose.
-#     surface:   The hop begins on the floor, with u. So w - u is lag g dt, on average g dt/2.
-#     rebound:   The hop before ended with its own w, about lag w dt deep. The rebound puts the car
-#                CR times as far above the floor, and u is CR times that w. So this hop begins about
-#                lag u dt high (0.04), as if the car had left the floor with u + lag g dt (about
-#                0.9). So, if both lags are equal, w - u is 2 lag g dt: on average g dt.
-#     none:      At CR = 1 a hop ends, on average, as deep as it begins. So w - u is 0 on average.
-#     conserve:  This correction keeps E on the way to the floor and off it. Here let u and w be the
-#                speeds at the floor: w - u is 0. On average the time between is hop dt, as in (1).
-# An Euler motion also changes E, in each frame by m g^2 dt^2/2, where m is the motion's number. So
-# in the whole hop w^2/2 - u^2/2, or (w - u)(w + u)/2, changes by hop m g^2 dt^2/2. As (w + u)/2 is
-# hop g dt/2, by (1), w - u changes by m g dt. In all,
-#     (2)  w - u = k g dt        1.0 - 0.8 = 1 * 0.2
-# By (1) and (2) w is (hop + k) g dt/2 and u is (hop - k) g dt/2. The next u is CR w. It is also
-# (next - k) g dt/2. So next - k = CR (hop + k). With equal frames, from most starts, it leads to:
-#     CR = 1: On average each hop is 2 k lines longer than the one before. If k > 0, hops grow until
-#         the car meets the other wall. If k < 0, they shrink until the car rests (with the
-#         correction none, until it is caught). If k = 0, their length stays, or goes up and down.
-#     CR < 1, k > 0: By the law, a hop of n = k (1 + CR)/(1 - CR) lines repeats. Hops of over 2 n
-#         lines shrink, until they have about n/2 to 2 n. Short ones grow, or repeat as they are.
-#         Why may a hop repeat that has not n lines? The numbers of surface and rebound, 1/2 and 1,
-#         are for a lag of 1/2. A hop that repeats has the same lag each time, perhaps another one.
-#         Then the numbers are lag and 2 lag. As a lag is at most 1, k and n are at most doubled.
-#     CR < 1, k <= 0: Hops shrink until the car rests: in each line it then bounces, on the wall or,
-#         with rebound, up to g dt^2/4 from it. With the g and dt above this is 5 mm, and a film
-#         runs on. But with backward + rebound k is 2 lag - 1. If this is over 0, hops may repeat.
-# For the table, hops of 30 to 90 lines were followed to their end at CR = 0.9, where n is 19 k. The
-# rarest 2 of 100 results are left out. If k > 0, surface ends above n: its lag is over 1/2.
-#                   + surface     + rebound            + conserve
-#     forward       29 to 37      33 to 48             18 and 19 lines
-#     exact         10 to 18      14 to 30             rest
-#     backward      rest          rest or up to 16     rest
+#     8:        |   *                    v = -0.80    The last move ends 5 cm below the floor, at
+#     9:   0    |   *                    v =  0.80    the 0, with w = 1.00 m/s.
+# The hop has 9 lines. The drop is 4 + 5 = 9 cm. The way is 9 * 2 * 0.1^2/2 = 0.09 m, also 9 cm.
+# (This film is  99 d x_m=0.29 v_mps=0.8 a_mps2=-2 CR=0.8 motion=exact correction=rebound
+# fps_target=10 m_to_px=100 width_px=50  and its line 0 is the start, drawn like line 9.)
+#
+# (1) Each frame of a hop adds g dt downwards. So from u upwards to w downwards,
+#         u + w = hop g dt                            in the drawn hop: 0.8 + 1.0 = 9 * 0.2
+# (2) How much larger is w than u? With the exact motion E does not change in flight, so w^2/2 is
+#     larger than u^2/2 by g drop. Forward and backward also change E, by m g^2 dt^2/2 a frame. So
+#         (w^2 - u^2)/2 = g drop + m hop g^2 dt^2/2
+#     The left side is (w - u) (w + u)/2. Divide both sides by (w + u)/2. By (1) it is hop g dt/2.
+#     What is left is
+#         w - u = k g dt    with    k = m + drop/way          in the drawn hop: k = 0 + 9/9 = 1
+# (3) Add (1) and (2), or subtract them: w = (hop + k) g dt/2 and u = (hop - k) g dt/2. With surface
+#     and rebound, the u of the next hop is CR w. For that hop, let k' be its k. Then
+#     (next - k') g dt/2 is CR (hop + k) g dt/2, so
+#         next = CR (hop + k) + k'                    in the drawn hop: 0.8 (9 + 1) + 1 = 9
+# This is the law. Nothing in it is approximate: it holds in every hop. The drawn hop is followed by
+# one that is like it. As a rule it is not so. The first hop of example 20 has 14 lines, a drop of
+# 11.2 cm and a way of 14 cm, so k is 0.8. The next one has a drop of 1.92 cm and a way of 12 cm, so
+# k' is 0.16. And 0.8 (14 + 0.8) + 0.16 is 12.0 lines.
+#
+# How large is drop/way? A collision is found late. On average the car has met the floor half a
+# frame before, so a hop ends w dt/2 below the floor. And by (1) the way is (u + w) dt/2.
+#     surface    The hop begins on the floor. So the drop is w dt/2, about half a way. In a long hop
+#                u and w are nearly equal, so drop/way is 1/2 on average.
+#     rebound    The hop begins CR times as far above the floor as the hop before ended below it. On
+#                average this is CR w dt/2 with the w of that hop, which is u dt/2. So the drop is
+#                (u + w) dt/2, and drop/way is 1 on average.
+#     none       The law holds if CR = 1. A hop begins as deep as the hop before ended, so drop/way
+#                is 0 on average.
+#     conserve   It takes from v what the height costs. Let u and w be the speeds at the floor. They
+#                have no drop, so its number is 0. Then (1) and the law hold only on average.
+# Rewind and replay need no number: if they are right, so are their hops.
+#
+# What does it mean? On average k is the motion's number + the correction's number.
+#     k > 0    The car gets too much energy. At CR = 1 it hops higher and higher: each hop is on
+#              average 2 k lines longer than the hop before. At CR < 1 its hops should die out, and
+#              they do not if k (1 + CR)/(1 - CR) is two lines or more: they end near that.
+#     k < 0    The car gets too little energy. At CR = 1 it should hop for ever, and comes to rest.
+#     k = 0    The energy is right on average.
+# One hop may be longer or shorter. Its drop depends on how late its collision is found, and that
+# depends on the start. When the hop is over, the drop is known. So the law foretells an average.
+#
+# A hop that repeats for ever has the same drop each time, so it need not be the average drop. In
+# (3) set next = hop and k' = k: then k = hop (1 - CR)/(1 + CR). With exact + surface and with
+# backward + rebound hops repeat up to k = 1, with exact + rebound up to k = 2.
+#
+# A ball that was dropped from rest may be back on the floor exactly at the end of a frame, each
+# time. Then a collision is found a whole frame late, so drop/way with surface is 1 at CR = 1. With
+# backward + surface k is -1 + 1 = 0, and one hop repeats for ever. With forward + surface k is 2.
+#
+# A program may set a small speed to 0, so that things lie still. How small? By (3), hops that
+# repeat come down at w = k g dt/(1 - CR). With forward + surface k is at most 2. So it is enough to
+# set bounces below 2 g dt/(1 - CR) to 0. At CR = 1 nothing should rest, so do not do it there.
 
-# ==== 8. What film, chart and map share in printing =============================================
+# ==== 9. The chart: speed against accuracy ======================================================
+# What does each method cost, and how wrong is it?
 
-# The colours of the marks of film, chart and map: a terminal's number and matplotlib's name.
-INKS = {"0Xx": (31, "red"), "od-": (32, "green"), "*<>eWGgLl": (33, "orange"),
-        "cPp": (34, "blue"), "aSs": (35, "purple"), "b": (36, "cyan")}
-COLOURED = {ord(mark): f"\033[{ink}m{mark}\033[0m"
-            for marks, (ink, _) in INKS.items() for mark in marks}
-LETTERS = "; ".join(f"{letter}: {' + '.join(method)}" for letter, method in METHODS.items())
+SPAN_S = 20  # of simulated time: about eight bounces in example 10, enough for errors to grow
+CUTS = 10  # runs of each method: with fewer, the largest error would depend on luck
+CHART_FPS = [10, 30, 60, 120, 240, 480, 960, 1920, 3840]
 
-def inked(line: str) -> str:
-    """The line with its marks in colours, or as it is where nobody wants colours."""
-    is_plain = os.environ.get("NO_COLOR") or os.environ.get("TERM", "dumb") == "dumb"
-    return line if is_plain or not sys.stdout.isatty() else line.translate(COLOURED)
+class Sample(NamedTuple):
+    """A car and the true car at the same moment."""
 
-def say(text: str, indent: int = 0) -> None:
-    """Print a paragraph, as wide as the terminal but no wider than is good to read."""
-    width = min(100, shutil.get_terminal_size().columns)
-    print(textwrap.fill(text, width, subsequent_indent=" " * indent), flush=True)
+    x_m: float
+    v_mps: float
+    true_m: float
+    true_mps: float
 
-# ==== 9. Speed against accuracy: the chart ======================================================
+def simulate(scene: Scene, fps: int, cut: int) -> list[Sample]:
+    """Run for SPAN_S. Take a sample every 0.1 s or, if frames are longer, every frame.
 
-SPAN_S, CUTS = 20, 10  # of chart and map: simulated seconds, runs of each method
-MEASURED = ("The scene's own motion, correction and rate do not matter. Each method runs ten times "
-            "for 20 simulated seconds, in equal frames: from the scene's start, and nine times "
-            "from the true state a part of a frame later, to meet walls elsewhere in a frame.")
-CHART_FPS = (10, 30, 60, 120, 240, 480, 960, 1920, 3840)  # multiples of 10, for simulate
-Points = dict[str, list[tuple[float, float]]]  # letter: (error_m, cost_us) at each rate
-cached_step = cache(step)  # all methods need the truth at the same moments
-
-def simulate(scene: Scene, fps: int, cut: int) -> Iterator[tuple[float, ...]]:
-    """Run for SPAN_S. Every 0.1 s (or frame, if longer) yield x_m, v_mps and their true values.
-
-    At which moment of a frame the car meets a wall is luck. So cut 0 begins at the scene's start,
-    and cuts 1 to 9 begin later, at the true state of that moment. They are a ninth of a frame
-    apart. A cut that began a whole frame later would meet the walls as cut 0 does.
+    It is luck at which moment of a frame the car meets a wall. So there are ten cuts of the same
+    motion into frames. Cut 0 begins at the start of the scene. Each other cut begins a part of a
+    frame later, at the true state of that moment.
     """
+    dt_s = 1 / fps
     truth = truth_of(scene)
-    shift_s = (cut - 2 / 3) / (CUTS - 1) / fps if cut else 0.0
+    part = 0.0
+    if cut > 0:
+        # 1/27, 4/27, ... 25/27: they are evenly spread, and none is at the edge of a frame, where
+        # it would be cut 0 again.
+        part = (3 * cut - 2) / 27
+    true_m, true_mps, _ = step(truth, truth.x_m, truth.v_mps, part * dt_s)
+    x_m, v_mps = true_m, true_mps
     frames_a_sample = max(1, fps // 10)
-    x_m, v_mps, _ = step(truth, truth.x_m, truth.v_mps, shift_s)
-    for frame in range(frames_a_sample, SPAN_S * fps + 1, frames_a_sample):
+    samples = []
+    for _ in range(SPAN_S * fps // frames_a_sample):
         for _ in range(frames_a_sample):
-            x_m, v_mps, _ = step(scene, x_m, v_mps, 1 / fps)
-        t_s = shift_s + frame / fps
-        yield x_m, v_mps, *cached_step(truth, truth.x_m, truth.v_mps, t_s)[:2]
+            x_m, v_mps, _ = step(scene, x_m, v_mps, dt_s)
+        # One step of any length gives the truth. So the true car takes a single, longer step.
+        true_m, true_mps, _ = step(truth, true_m, true_mps, frames_a_sample * dt_s)
+        samples.append(Sample(x_m, v_mps, true_m, true_mps))
+    return samples
+
+def largest_error_m(scene: Scene, fps: int) -> float:
+    """The largest distance from the true car in all samples of all cuts."""
+    largest_m = 0.0
+    for cut in range(CUTS):
+        for sample in simulate(scene, fps, cut):
+            largest_m = max(largest_m, abs(sample.x_m - sample.true_m))
+    return largest_m
 
 def cost_us(scene: Scene, fps: int) -> float:
-    """Processor time of the bare steps for a simulated second, the best of several runs."""
-    costs_s = timeit.repeat(
-        "x_m, v_mps, _ = step(scene, x_m, v_mps, dt_s)", "x_m, v_mps = scene.x_m, scene.v_mps",
-        number=SPAN_S * fps, repeat=max(5, 200 // fps), timer=time.process_time,
-        globals={"step": step, "scene": scene, "dt_s": 1 / fps})
-    return max(1e6 * min(costs_s) / SPAN_S, 0.01)  # a coarse clock may have measured 0
+    """The processor time that a simulated second takes, in microseconds. Only steps count.
 
-def two_digits(number: float) -> str:
-    """The number with two digits, as more would be noise, and without an exponent."""
-    return f"{float(f'{number:.1e}'):g}"
+    Other programs may slow this one, and nothing can speed it up. So the least of several runs is
+    nearest to the truth.
+    """
+    dt_s = 1 / fps
+    costs_s = []
+    for _ in range(max(5, 200 // fps)):
+        x_m, v_mps = scene.x_m, scene.v_mps
+        began_s = time.process_time()
+        for _ in range(SPAN_S * fps):
+            x_m, v_mps, _ = step(scene, x_m, v_mps, dt_s)
+        costs_s.append(time.process_time() - began_s)
+    least_us = 1e6 * min(costs_s) / SPAN_S
+    return max(least_us, 0.1)  # a coarse clock may have measured 0, which has no logarithm
 
-def table(scene: Scene) -> Points:
-    """Measure every series at every rate, and print it row by row."""
-    points: Points = {letter: [] for letter in METHODS}
-    print("\n    ", *(f"{f'{letter}: {motion}':>14}" for letter, (motion, _) in METHODS.items()))
-    print("    ", *(f"{f'+ {correction}':>14}" for _, correction in METHODS.values()))
+class Point(NamedTuple):
+    """One method at one frame rate: a point of the chart."""
+
+    fps: int
+    error_m: float
+    cost_us: float
+
+def measure(scene: Scene) -> dict[str, list[Point]]:
+    """Measure every method at every rate, and print the table row by row."""
+    motions, corrections = "    ", "    "
+    for letter, (motion, correction) in METHODS.items():
+        motions += f"{letter}: {motion}".rjust(15)
+        corrections += f"+ {correction}".rjust(15)
+    print()
+    print(motions)
+    print(corrections)
     print(" FPS" + "  error m    us" * len(METHODS))
+    points: dict[str, list[Point]] = {letter: [] for letter in METHODS}
     for fps in CHART_FPS:
         row = f"{fps:4}"
         for letter, (motion, correction) in METHODS.items():
             method = replace(scene, motion=motion, correction=correction)
-            errors_m = (abs(x_m - true_m) for cut in range(CUTS)
-                        for x_m, _, true_m, _ in simulate(method, fps, cut))
-            error_m, us = max(errors_m), cost_us(method, fps)
-            points[letter].append((error_m, us))
-            row += f"{error_m:9.1e}{two_digits(us):>6}"
+            point = Point(fps, largest_error_m(method, fps), cost_us(method, fps))
+            points[letter].append(point)
+            row += f"{point.error_m:9.1e}{point.cost_us:6.0f}"
         print(row, flush=True)
-    print(f"Twice the rate divides errors by (2: first order, 4: second; from {CHART_FPS[-4]} FPS)")
-    orders = (f"{(series[-4][0] / series[-1][0])**(1 / 3):.1f}" if series[-1][0] > 1e-9 else "-"
-              for series in points.values())  # three doublings; smaller errors are round-off
-    print("    " + "".join(f"{order:>9}{'':6}" for order in orders) + "\n")
+    row = "order"
+    for series in points.values():
+        row += order_text(series).rjust(7) + " " * 8
+    print(row.rstrip())
+    print()
     return points
 
-def error_px(error_m: float) -> int:
-    """An error's column, eight for each power of ten from 1e-6 to 10 m; others are at the edge."""
-    return round(8 * math.log10(min(max(error_m, 1e-6), 10) / 1e-6))
+def order_text(series: list[Point]) -> str:
+    """The order of a method, from the last three doublings of the rate.
 
-def picture(points: Points, pixel_m: float) -> None:
-    """Print the points: error to the right, processor time down, four rows for a power of ten."""
-    marks = [(round(4 * math.log10(us)), error_px(error_m), letter)
-             for letter, series in points.items() for error_m, us in series]
-    limit_px = error_px(pixel_m)
-    say("To the right: the largest error of ten runs, every 0.1 s. Down: processor time for a "
-        "simulated second, in us (microseconds). The best are in the upper left.")
-    say(f"{LETTERS}; +: several of them.")
-    print(f"\n{'one drawn pixel |':>{limit_px + 11}}")
+    At order 1 twice the rate divides the error by 2, at order 2 by 4.
+    """
+    last_m = series[-1].error_m
+    if last_m < 1e-9:  # this is round-off, which has no order
+        return "exact"
+    doublings = math.log2(series[-4].error_m / last_m)
+    return f"{doublings / 3:.1f}"
+
+COLUMNS_A_DECADE, ROWS_A_DECADE = 8, 4  # a decade is from one power of ten to the next
+LEAST_ERROR_M, LARGEST_ERROR_M = 1e-6, 10.0  # other errors are drawn at the edge of the picture
+
+def error_column(error_m: float) -> int:
+    """The column of an error in the picture."""
+    error_m = max(error_m, LEAST_ERROR_M)
+    error_m = min(error_m, LARGEST_ERROR_M)
+    return round(COLUMNS_A_DECADE * math.log10(error_m / LEAST_ERROR_M))
+
+def cost_row(point: Point) -> int:
+    """The row of a point in the picture."""
+    return round(ROWS_A_DECADE * math.log10(point.cost_us))
+
+def picture(points: dict[str, list[Point]], pixel_m: float) -> None:
+    """Draw the points as the film is drawn: error to the right, processor time downwards."""
+    rows = [cost_row(point) for series in points.values() for point in series]
+    pixel_column = error_column(pixel_m)
+    print("one drawn pixel |".rjust(10 + pixel_column + 1))
     print("    us    <=1 um  10 um   0.1 mm  1 mm    1 cm    0.1 m   1 m     >=10 m")
-    for row in range(min(marks)[0], max(marks)[0] + 1):
-        line = bytearray(b" " * 57)
-        paint(line, "|", limit_px)
-        for cost_px, column, letter in marks:
-            if cost_px == row:
-                paint(line, letter if chr(line[column]) in f" |{letter}" else "+", column)
-        print(f"{two_digits(10 ** (row / 4)):>6}    {inked(line.decode().rstrip())}")
+    for row in range(min(rows), max(rows) + 1):
+        line = [" "] * (error_column(LARGEST_ERROR_M) + 1)
+        paint(line, "|", pixel_column)
+        for letter, series in points.items():
+            for point in series:
+                if cost_row(point) == row:
+                    paint_letter(line, letter, error_column(point.error_m))
+        row_us = 10 ** (row / ROWS_A_DECADE)
+        print(f"{row_us:6.0f}    {''.join(line).rstrip()}")
+    print()
 
-def conclude(points: Points, pixel_m: float) -> None:
-    """Give the answer: from which rate on each series stays within a pixel, and at what cost."""
-    told = []
+def paint_letter(line: list[str], letter: str, column: int) -> None:
+    """Put a letter into its column or, where another letter stands, a +."""
+    if line[column] in (" ", "|", letter):
+        paint(line, letter, column)
+    else:
+        paint(line, "+", column)
+
+def first_good_point(series: list[Point], pixel_m: float) -> Point | None:
+    """The point of the lowest rate from which on all errors are within a pixel, or None."""
+    found = None
+    for point in reversed(series):
+        if point.error_m > pixel_m:
+            break
+        found = point
+    return found
+
+def conclude(points: dict[str, list[Point]], pixel_m: float) -> None:
+    """Answer the question: which methods stay within a pixel, and what do they cost?"""
+    answers = []
+    failed = []
     for letter, series in points.items():
-        found = math.inf, f"{letter} at none of these rates"
-        for fps, (error_m, us) in reversed(list(zip(CHART_FPS, series))):
-            if error_m > pixel_m:
-                break
-            found = us, f"{letter} from {fps} FPS on, {two_digits(us)} us"
-        told.append(found)
-    say(f"Within a pixel ({two_digits(pixel_m)} m) in all ten runs, the cheapest first: "
-        f"{'; '.join(text for _, text in sorted(told))}.")
+        point = first_good_point(series, pixel_m)
+        if point is None:
+            failed.append(letter)
+        else:
+            answers.append((point.cost_us, letter, point.fps))
+    answers.sort()
+    texts = [f"{letter} from {fps} FPS on, for {us:.0f} us" for us, letter, fps in answers]
+    texts += [f"{letter} at none of these rates" for letter in failed]
+    say(f"Within a drawn pixel, {pixel_m:.2g} m, in all ten runs, the cheapest first: "
+        f"{'; '.join(texts)}.")
 
-def new_figure(file: str) -> Any:
-    """An empty matplotlib figure. Raises BadInput for a wrong suffix or without matplotlib."""
-    if not file.endswith((".png", ".svg", ".pdf")):
-        raise BadInput(f"--save FILE must end in .png, .svg or .pdf, not {file!r}")
-    try:
-        from matplotlib.figure import Figure
-        return Figure(figsize=(8, 6), dpi=150, layout="constrained")
-    except Exception as fault:  # a broken one may raise anything
-        how = ', pip install ".[chart]"' if isinstance(fault, ModuleNotFoundError) else " to work"
-        raise BadInput(f"--save needs matplotlib{how}: {str(fault) or repr(fault)}") from fault
-
-def draw(figure: Any, points: Points, pixel_m: float, heading: str) -> None:
-    """Draw the points with matplotlib as well."""
-    figure.suptitle(f"Speed against accuracy\n{textwrap.fill(heading, 126)}", fontsize=8)
-    axes = figure.add_subplot(
-        xscale="log", yscale="log", xlabel="largest error in ten runs (m): better to the left",
-        ylabel="processor time for a simulated second (\N{MICRO SIGN}s):\nbetter upwards")
-    axes.invert_yaxis()
-    for (letter, series), name, mark in zip(points.items(), LETTERS.split("; "), "oxD+v"):
-        errors_m = [max(error_m, 1e-16) for error_m, _ in series]  # 0 has no logarithm
-        colour, = (colour for marks, (_, colour) in INKS.items() if letter in marks)
-        axes.plot(errors_m, [us for _, us in series], f"{mark}-", color=f"tab:{colour}", label=name)
-    axes.axvline(pixel_m, color="black", linestyle="--",
-                 label=f"one drawn pixel, {two_digits(pixel_m)} m")
-    figure.legend(loc="outside lower center", ncols=3, title="Each line begins at "
-                  f"{CHART_FPS[0]} FPS, at the top, and ends at {CHART_FPS[-1]} FPS")
-
-def chart(scene: Scene, heading: str, file: str | None) -> None:
-    """Print table and picture. If a file is given, save the picture, or raise BadInput."""
+def chart(scene: Scene, title: str) -> None:
+    """Measure, print the table, draw the picture and answer the question."""
     pixel_m = 1 / scene.m_to_px
-    figure: Any = None if file is None else new_figure(file)  # fails before the measuring
-    say(f"Speed against accuracy. {heading} {MEASURED} Which method costs least and stays within "
-        "a pixel of the truth?")
-    points = table(scene)
+    say(f"Speed against accuracy: {title}")
+    say("Which method is the cheapest that stays within a drawn pixel of the truth? Each method "
+        "runs ten times for 20 simulated seconds. Error: the largest distance from the true car in "
+        "these runs, looked at every 0.1 s. Cost: processor time for a simulated second in us "
+        "(microseconds). Order: 1 if half the dt makes half the error, 2 if it makes a quarter. "
+        "Method e is the truth's own method, so its error can be nothing but round-off.")
+    points = measure(scene)
     picture(points, pixel_m)
+    say("Error to the right, cost downwards: the best are in the upper left. Where letters meet "
+        "there is a +.")
     conclude(points, pixel_m)
-    if file is not None:
-        try:
-            draw(figure, points, pixel_m, heading)
-            figure.savefig(file, format=file[-3:])  # or it would write .svg as .svg.png
-        except Exception as fault:  # whatever matplotlib or the disk refuses
-            raise BadInput(f"--save {file!r}: {str(fault) or repr(fault)}") from fault
-        print(f"\nSaved as {file!a}.")
 
-# ==== 10. Where methods fail: the stability map =================================================
+# ==== 10. The map: where methods fail ===========================================================
+# Which method fails at which frame rate, and how?
 
-MAP_FPS = (1, 2, 5, 10, 30, 60, 120, 240, 1000)  # at most 10, or multiples of it
+MAP_FPS = [1, 2, 5, 10, 30, 60, 120, 240, 1000]
 VERDICTS = {  # from the worst to the best
     "X": "out: further beyond a wall than the track is long",
     "S": "stuck: beyond the same wall all through the last 5 s",
-    "W": "win or lose: some runs gain energy, others lose it; always a capital",
-    "G": "gain: on average over the last 5 s the car has over 1 % too much energy",
-    "L": "loss: on average over the last 5 s the car has over 1 % too little energy",
-    "P": "energy within 1 %, but over a drawn pixel off; at CR < 1 it may still hop",
-    "-": "within a drawn pixel of the truth, every 0.1 s (or frame, if longer)"}
+    "W": "in some runs as G, in others as L",
+    "G": "too much energy, by over 1 % on average over the last 5 s",
+    "L": "too little energy, by over 1 % on average over the last 5 s",
+    "P": "the energy is right, but the car is over a drawn pixel off",
+    "-": "within a drawn pixel of the truth",
+}
+FROM_WORST_TO_BEST = list(VERDICTS)
 
 def verdict(scene: Scene, fps: int, cut: int) -> str:
-    """The letter of one run: the first of X, S, -, G, L and P that fits. (W needs several runs.)"""
-    states = list(simulate(scene, fps, cut))
-    late = len(states) * 3 // 4  # where the last 5 of 20 s begin
-    beyond_m = [x_m - scene.to_track(x_m) for x_m, *_ in states]
+    """The letter of one run: the first of X, S, -, G, L and P that fits. W needs several runs."""
+    samples = simulate(scene, fps, cut)
+    last_samples = samples[len(samples) * 3 // 4:]  # those of the last 5 of 20 s
     track_m = scene.right_edge_m - scene.left_edge_m
-    if max(map(abs, beyond_m)) > track_m:
+    # X: how far beyond a wall was the car?
+    beyond_m = [abs(sample.x_m - scene.to_track(sample.x_m)) for sample in samples]
+    if max(beyond_m) > track_m:
         return "X"
-    if min(beyond_m[late:]) > 0 or max(beyond_m[late:]) < 0:
+    # S: which walls was it beyond in the last 5 s? (None stands for the track.)
+    walls = {scene.wall_passed(sample.x_m) for sample in last_samples}
+    if len(walls) == 1 and None not in walls:
         return "S"
-    if max(abs(x_m - true_m) for x_m, _, true_m, _ in states) <= 1 / scene.m_to_px:
+    # -: how far from the true car was it?
+    errors_m = [abs(sample.x_m - sample.true_m) for sample in samples]
+    if max(errors_m) <= 1 / scene.m_to_px:
         return "-"
-    gain = fmean((v_mps**2 - true_mps**2) / 2 - scene.a_mps2 * (x_m - true_m)
-                 for x_m, v_mps, true_m, true_mps in states[late:])  # in E
-    one_percent = 0.01 * (scene.v_mps**2 / 2 + abs(scene.a_mps2) * track_m)
-    return "G" if gain > one_percent else "L" if gain < -one_percent else "P"
+    # G or L: how much more energy than the true car had it? 100 % is its energy at the start, and
+    # what a could add on the whole length of the track.
+    all_energy = scene.v_mps**2 / 2 + abs(scene.a_mps2) * track_m
+    gain = fmean([energy_gain(scene, sample) for sample in last_samples])
+    if gain > 0.01 * all_energy:
+        return "G"
+    if gain < -0.01 * all_energy:
+        return "L"
+    return "P"
 
-def cell(found: set[str]) -> str:
+def energy_gain(scene: Scene, sample: Sample) -> float:
+    """How much more energy the car has than the true car: the difference of v^2/2 - a x."""
+    energy = sample.v_mps**2 / 2 - scene.a_mps2 * sample.x_m
+    true_energy = sample.true_mps**2 / 2 - scene.a_mps2 * sample.true_m
+    return energy - true_energy
+
+def cell(letters: list[str]) -> str:
     """One letter for ten runs: the worst, as a small letter if only some runs are so bad."""
-    worst = min(found, key=list(VERDICTS).index)
-    if worst == "G" and "L" in found:
+    worst = min(letters, key=FROM_WORST_TO_BEST.index)
+    if worst == "G" and "L" in letters:
         return "W"
-    return worst if len(found) == 1 else worst.lower()
+    if letters.count(worst) < len(letters):
+        return worst.lower()
+    return worst
 
-def stability(scene: Scene, whose: str, heading: str) -> None:
+def stability(scene: Scene, title: str) -> None:
     """Print the map: a row for each method, a column for each rate, a letter for ten runs."""
-    say(f"Stability. {heading} {MEASURED} Which methods are right, and from which rate on?")
-    print("\nFrom the worst to the best. 100 % is v^2/2 at the start + |a| * track length:")
-    for letter, meaning in VERDICTS.items():
-        print(f"{inked(letter)}  {meaning}")
-    print(f"\n{whose:20}" + "".join(f"{fps:6}" for fps in MAP_FPS), "FPS")
-    right: dict[int, list[str]] = {}  # from which column on: the methods
+    say(f"Stability: {title}")
+    say("Which methods are right, and from which frame rate on? Each runs ten times for 20 "
+        "simulated seconds. 100 % of the energy is v^2/2 at the start + |a| * length of the track.")
+    rates = "".join([str(fps).rjust(6) for fps in MAP_FPS])
+    print()
+    print(" " * 20 + rates + " FPS")
     for motion in MOTIONS:
-        for correction in EVERY_CORRECTION:
-            if motion == "exact" or correction not in EXACT_ONLY:
-                name, row = f"{motion} + {correction}", ""
-                method = replace(scene, motion=motion, correction=correction)
-                for fps in MAP_FPS:
-                    row += cell({verdict(method, fps, cut) for cut in range(CUTS)})
-                print(f"{name:20}" + inked("".join(f"{letter:>6}" for letter in row)), flush=True)
-                right.setdefault(len(row.rstrip("-")), []).append(name)
-    say("X out, S stuck, W win or lose, G gain, L loss, P energy right, - within a pixel; a small "
-        "letter: the worst of some runs, not all.")
-    told = [f"{', '.join(right[column])} from {fps} FPS on"
-            for column, fps in enumerate(MAP_FPS) if column in right]
-    say(f"Within a pixel in all ten runs: {'; '.join(told)}.")
-    if scene.a_mps2:
-        say("By the law of the hops (examples 19, 20; section 7 of airtrack.py), long hops on one "
-            "wall gain energy with surface, rebound or conserve if k > 0, lose if k < 0." if
-            scene.CR == 1 else "At CR < 1 a G car hops on, or lies on its wall with too large a v.")
+        for correction in ALL_CORRECTIONS:
+            if correction in EXACT_ONLY and motion != "exact":
+                continue
+            method = replace(scene, motion=motion, correction=correction)
+            row = f"{motion} + {correction}".ljust(20)
+            for fps in MAP_FPS:
+                letters = [verdict(method, fps, cut) for cut in range(CUTS)]
+                row += cell(letters).rjust(6)
+            print(row, flush=True)
+    for letter, meaning in VERDICTS.items():
+        print(f"{letter}  {meaning}")
+    print("A small letter: only some of the ten runs are so bad.")
 
-# ==== 11. Checking a scene ======================================================================
+# The lesson ends here.
 
-class BadInput(ValueError):
-    """One sentence: what a user asked for and cannot have, and what is allowed."""
+# ==== 11. Printing ==============================================================================
+# What is said before and after a film?
 
-NUMBERS = {int: "a whole number", float: "a number"}  # settings of other types are choices
-
-def allowed_text(row: Field[Any]) -> str:
-    """What a setting may be, in words."""
-    allowed, noun = row.metadata["allowed"], NUMBERS.get(type(row.default))
-    if noun:
-        return f"{noun} from {allowed[0]} to {allowed[1]} {row.metadata['unit']}".rstrip()
-    return " or ".join(", ".join(map(str, allowed)).rsplit(", ", 1))
-
-def check(scene: Scene) -> None:
-    """Raise BadInput for a scene that is not allowed. It names setting, range and value."""
-    for row in fields(scene):
-        value, allowed, kind = getattr(scene, row.name), row.metadata["allowed"], type(row.default)
-        is_good = (isinstance(value, (int, kind)) and allowed[0] <= value <= allowed[1]
-                   if kind in NUMBERS else value in allowed)
-        if not is_good:
-            text = str(value)
-            point = f": write {text.replace(',', '.')}" if kind is float and "," in text else ""
-            raise BadInput(f"{row.name} must be {allowed_text(row)}, not {value!r}{point}")
-    left_m, right_m = scene.left_edge_m, scene.right_edge_m
-    if round(right_m - left_m, 9) < 0.01:  # 2.21 - 2.2 is a bit less
-        raise BadInput("right_edge_m must be at least 0.01 m to the right of left_edge_m, not "
-                       f"{right_m} and {left_m}")
-    if scene.correction in EXACT_ONLY:
-        with_it = f"with correction={scene.correction}"
-        if scene.motion != "exact":
-            raise BadInput(f"motion must be exact {with_it}, not {scene.motion}: choose "
-                           "motion=exact, or another correction")
-        if scene.x_m != scene.to_track(scene.x_m):
-            raise BadInput(f"x_m must be from {left_m} to {right_m} {with_it}, not {scene.x_m}")
-
-# ==== 12. The command line ======================================================================
-
-SETTINGS = {row.name: row for row in fields(Scene)}
 PYTHON = os.path.basename(sys.executable).removesuffix(".exe")  # python3 where there is no python
-COMMANDS = {"chart": f"\nNext: {PYTHON} airtrack.py stability",  # each with its last line
-            "stability": "That was the tour. README.md has exercises."}
-DRAWING = {"m_to_px", "width_px", "show_start_mark", "show_collision_mark", "show_exact_mark"}
-OPTIONS = {"d": "the film", "--fast": "the film", "--frames": "the film", "--save": "chart"}
 
-def in_words(scene: Scene) -> str:
-    """How the car starts, in words."""
-    v_mps, a_mps2, ways = scene.v_mps, scene.a_mps2, ("to the left", "to the right")
-    beyond = "" if scene.x_m == scene.to_track(scene.x_m) else ", beyond a wall"
-    speed = f"moving {ways[v_mps > 0]} at {abs(v_mps):g} m/s" if v_mps else "at rest"
-    pull = f"pulled {ways[a_mps2 > 0]} at {abs(a_mps2):g} m/s^2" if a_mps2 else "not pulled"
-    if not (beyond or v_mps or a_mps2):
-        pull += ": nothing moves it until v_mps or a_mps2 is given"
-    return (f"The car starts at {scene.x_m:g} m{beyond}, {speed}, {pull}; walls at "
-            f"{scene.left_edge_m:g} and {scene.right_edge_m:g} m; CR={scene.CR:g}.")
+def say(text: str) -> None:
+    """Print a paragraph, as wide as the terminal but no wider than is good to read."""
+    width = min(100, shutil.get_terminal_size().columns)
+    print(textwrap.fill(text, width), flush=True)
 
-def film_in_words(scene: Scene) -> str:
-    """How the car starts, and then all that the user may set of its motion and its frames."""
-    irregular = f", irregular by up to {100 * scene.jitter:g} %" if scene.jitter else ""
-    observed = ", each step as long as the frame before" * scene.use_observed_dt
-    return (f"{in_words(scene)} Motion {scene.motion}, correction {scene.correction}, "
-            f"{scene.fps_target:g} frames a second{irregular}{observed}")
+def start_text(scene: Scene) -> str:
+    """Car and track, by the names that one may type. (A number may have ten digits.)"""
+    return (f"x_m={scene.x_m:.10g} v_mps={scene.v_mps:.10g} a_mps2={scene.a_mps2:.10g} "
+            f"CR={scene.CR:.10g}, walls at {scene.left_edge_m:.10g} and "
+            f"{scene.right_edge_m:.10g} m")
 
-def fitted(scene: Scene, details: bool) -> Scene:
-    """The scene, its picture and zoom made smaller until line and details fit the terminal."""
-    truth = (0.0, 0.0) if scene.show_exact_mark else None
-    widest = details_text(-9999.99, -9999.99, scene.fps_target, truth) if details else ""
-    columns = max(10, shutil.get_terminal_size().columns - len(widest))  # 10: the least of a scene
+def scene_text(scene: Scene) -> str:
+    """The whole scene but for its drawing: two scenes with the same text move alike."""
+    text = (f"{start_text(scene)}; {scene.motion} + {scene.correction}, "
+            f"{scene.fps_target:.10g} FPS")
+    if scene.jitter:
+        text += f", jitter={scene.jitter:.10g}"
+    if scene.use_observed_dt:
+        text += ", use_observed_dt=True"
+    if scene.show_methods:
+        for letter, (motion, correction) in METHODS.items():
+            text += f"; {letter}: {motion} + {correction}"
+    return text
+
+def fitted(scene: Scene, has_details: bool) -> Scene:
+    """The scene, drawn smaller if its lines are wider than the terminal."""
+    columns = shutil.get_terminal_size().columns
+    if has_details:
+        truth = (0.0, 0.0) if scene.show_exact_mark else None
+        columns -= len(details_text(-9999.99, -9999.99, scene.fps_target, truth))
+    columns = max(columns, 10)  # the least that a scene may have
     if columns >= scene.width_px or not sys.stdout.isatty():
         return scene
-    # Columns run from 0 to width - 1: what is in the last one stays in the last one.
-    m_to_px = max(0.001, scene.m_to_px * (columns - 1) / (scene.width_px - 1))
-    say(f"Drawn {columns} columns wide, to fit.")
-    return replace(scene, width_px=columns, m_to_px=m_to_px)
+    # What was in the last column must stay in the last column. The first column has number 0.
+    m_to_px = scene.m_to_px * (columns - 1) / (scene.width_px - 1)
+    return replace(scene, width_px=columns, m_to_px=max(m_to_px, 0.001))
 
-def tell_of_walls(scene: Scene) -> None:
-    """If a wall is outside the picture, say so, and what would show both walls."""
-    if round(scene.left_edge_m * scene.m_to_px) < 0:
-        say("The picture begins at x = 0: shift x_m and the walls.")
-    elif round(scene.right_edge_m * scene.m_to_px) >= scene.width_px:
-        enough = math.floor(1000 * (scene.width_px - 1) / scene.right_edge_m) / 1000
-        say(f"The picture ends before a wall: m_to_px={enough:g} would show both.")
+def introduce(scene: Scene, title: str, has_details: bool) -> Scene:
+    """Say what the film is of. Returns the scene as it is to be drawn."""
+    say(title)
+    say(scene_text(scene))
+    view = fitted(scene, has_details)
+    if view.width_px < scene.width_px:
+        say(f"The picture is drawn {view.width_px} columns wide, to fit into the terminal.")
+    return view
 
-ACCOUNT = "bounces", "lines per hop", "turned at x (m)", "move beyond wall", "top speed", "rests"
+def hops_text(collisions: list[int]) -> str:
+    """The lines from collision to collision: the first four and the last two, if there are more."""
+    hops = [str(after - before) for before, after in pairwise(collisions)]
+    if len(hops) > 6:
+        hops = [*hops[:4], "...", *hops[-2:]]
+    return f"Lines from collision to collision: {' '.join(hops)}."
 
-def account(name: str, scene: Scene, until_s: float) -> tuple[str, ...]:
-    """A heading, and the rows of ACCOUNT: what the scene's film shows until that time."""
-    states: list[tuple[float, float, float | None]] = [(scene.x_m, scene.v_mps, None)]
-    last_m, t_s, rests = deque[float](maxlen=max(10, round(scene.fps_target / 3))), 0.0, ""
-    for length_s, _ in planned(scene):
-        t_s += (dt_s := length_s if scene.use_observed_dt else 1 / scene.fps_target)
-        if rests or t_s > until_s * (1 + 1e-9):
-            break
-        states.append(step(scene, *states[-1][:2], dt_s))
-        last_m.append(states[-1][0])
-        rests = f"yes, noticed at {t_s:.2f} s" * is_at_rest(scene, states[-1][1], last_m)
-    bounces = {n: mark_m for n, (_, _, mark_m) in enumerate(states) if mark_m is not None}
-    left = sum(mark_m < (scene.left_edge_m + scene.right_edge_m) / 2 for mark_m in bounces.values())
-    hops = [str(b - a) for a, b in pairwise(bounces)]
-    equal = len(list(takewhile(lambda hop: hop == hops[-1], reversed(hops))))
-    turns_m = [f"{(max if v > 0 else min)(x, x_m):.2f}" for (x, v, _), (x_m, v_mps, mark_m)
-               in pairwise(states) if mark_m is None and v and v * v_mps <= 0]  # the further x
-    for figures, last in (hops, 2), (turns_m, 1):  # the first four and the last ones are enough
-        figures[4:-last] = ["..."] * (len(figures) > 4 + last)
-    deepest_m = max((abs(at_m - scene.to_track(at_m)) for at_m in bounces.values()), default=0.0)
-    return (f"{name}, {scene.fps_target:g} FPS", f"{left} left, {len(bounces) - left} right",
-            " ".join(hops) or "-", " ".join(turns_m) or "only at walls" * bool(bounces) or "-",
-            f"up to {deepest_m:.3f} m", f"{max(abs(v_mps) for _, v_mps, _ in states):.2f} m/s",
-            rests or (f"no: last {equal} hops have {hops[-1]} lines" if equal > 3 else
-                      "not in this time"))
+def advice(scene: Scene, shown: Shown) -> str:
+    """What may be said of a scene of the user's own, after its film."""
+    text = "In hops of 1 line the car lies on a wall, or is caught beyond it."
+    is_cured = scene.motion == "exact" and scene.correction in ("conserve", "rewind", "replay")
+    if scene.a_mps2 != 0 and scene.CR < 1 and not shown.is_resting and not is_cured:
+        text += " " + OWN_SCENE.seen
+    return text
 
-def film(scene: Scene, number: int, title: str, options: dict[str, str]) -> int:
-    """Print what to look for, leave time to guess, run, and print what was to be seen."""
+def film(scene: Scene, number: int, title: str, has_details: bool, max_frames: int) -> None:
+    """Say what to look for, leave time to guess, show the film, and say what was to be seen."""
     example = EXAMPLES.get(number, OWN_SCENE)
-    details = "d" in options or example.details
-    max_frames = value_of(int, options.get("--frames", "50000"))
-    if not isinstance(max_frames, int) or max_frames < 1:
-        raise BadInput(f"--frames N must be a whole number from 1 up, not {max_frames!r}")
-    for told in (title, film_in_words(scene), *[LETTERS] * scene.show_methods):
-        say(f"{told}.")
-    tell_of_walls(scene)
-    view = fitted(scene, details)
-    as_it_is = Scene(**example.settings)
-    changed = {name for name in SETTINGS if getattr(scene, name) != getattr(as_it_is, name)}
-    is_changed = number in EXAMPLES and not changed <= DRAWING
-    question = f"What differs from example {number} as it is?" if is_changed else example.look_for
-    with nullcontext() if "--fast" in options else taken_keys() as keys:
-        for paragraph in keys.help(question) if keys else [question]:
-            say(paragraph)
-        if keys:
-            keys.leave_time()
-        print(flush=True)
-        run(view, details, max_frames, keys)
-        if keys and keys.frame and not keys.status:
-            films = {"as it is": as_it_is, "changed": scene} if is_changed else {"your film": scene}
-            tables = [[account(f"{mark} {name}", truth_of(each) if mark == "o" else each, keys.t_s)
-                       for name, each in films.items()] for mark in "*o"[:1 + scene.show_exact_mark]
-                      if is_changed or number not in EXAMPLES]
-            about = " about" * scene.use_observed_dt  # the clock set the steps
-            for columns in tables:
-                for row, *cells in zip((f"in{about} {keys.t_s:.2f} s", *ACCOUNT), *columns):
-                    print(f"{row:16} " + " ".join(f"{cell:31}" for cell in cells).rstrip())
-            if is_changed and all(usual[1:] == shown[1:] for usual, shown in tables):
-                print("No figure differs.")
-            elif not is_changed and not (tables and tables[0][0][-1].startswith("yes")):
-                say(example.seen)
-            following = [*EXAMPLES, "chart"][number + 1] if number in EXAMPLES else "-h"
-            if keys.where():
-                print(f"Next: {PYTHON} airtrack.py {following}", flush=True)
-    return keys.status if keys else 0
+    is_changed = number in EXAMPLES and scene_text(scene) != scene_text(scene_of(example, {}))
+    question = example.look_for
+    if is_changed:
+        question = f"What differs from example {number} as it is?"
+    view = introduce(scene, title, has_details)
+    with taken_keys() as keys:
+        say(keys.help())
+        say(question)
+        say(keys.how_it_begins())
+        keys.leave_time()
+        print()
+        shown = run(view, has_details, max_frames, keys)
+    if len(shown.collisions) > 2:
+        say(hops_text(shown.collisions))
+    if is_changed:
+        say(f"Example {number} as it is: {PYTHON} airtrack.py {number}")
+    elif number in EXAMPLES:
+        say(example.seen)
+    else:
+        say(advice(scene, shown))
+    say(f"Next: {PYTHON} airtrack.py {what_is_next(number)}")
 
-def manual() -> int:
-    """Print the usage, the examples and the settings."""
-    print(f"{__doc__}\nExamples; any other whole number is for a scene of your own")
+def fast_film(scene: Scene, number: int, title: str, has_details: bool, max_frames: int) -> None:
+    """Print the film without waiting and without keys."""
+    example = EXAMPLES.get(number, OWN_SCENE)
+    view = introduce(scene, title, has_details)
+    say(example.look_for)
+    print()
+    run(view, has_details, max_frames, NoKeys())
+
+def what_is_next(number: int) -> str:
+    """What to type next, after the film of this number."""
+    if number + 1 in EXAMPLES:
+        return str(number + 1)
+    if number in EXAMPLES:
+        return "chart"
+    return "-h"
+
+# ==== 12. Checks ================================================================================
+# Which scenes are allowed?
+
+SETTINGS = {setting.name: setting for setting in fields(Scene)}
+
+# Values that people type because other programs have them, and what they are called here:
+OTHER_WORDS = {"euler": "forward or backward", "exact": "rewind or replay"}
+
+def allowed_text(setting: Field[Any]) -> str:
+    """What a setting may be, in words."""
+    metadata = setting.metadata
+    if "choices" in metadata:
+        return " or ".join([str(choice) for choice in metadata["choices"]])
+    kind = "a number"
+    if isinstance(setting.default, int):
+        kind = "a whole number"
+    return f"{kind} from {metadata['least']} to {metadata['largest']} {metadata['unit']}".rstrip()
+
+def check_value(name: str, value: Any) -> None:
+    """Raise ValueError if the setting of this name may not have this value."""
+    setting = SETTINGS[name]
+    metadata = setting.metadata
+    if "choices" in metadata:
+        is_allowed = value in metadata["choices"]
+    elif isinstance(value, (int, type(setting.default))):
+        is_allowed = metadata["least"] <= value <= metadata["largest"]
+    else:
+        is_allowed = False
+    if not is_allowed:
+        text = f"{name} must be {allowed_text(setting)}, not {value}"
+        if value in OTHER_WORDS:
+            text += f": did you mean {OTHER_WORDS[value]}?"
+        elif "," in str(value):
+            text += f": write {str(value).replace(',', '.')}"
+        raise ValueError(text)
+
+def check(scene: Scene) -> None:
+    """Raise ValueError for a scene that is not allowed."""
+    for name in SETTINGS:
+        check_value(name, getattr(scene, name))
+    left_m, right_m = scene.left_edge_m, scene.right_edge_m
+    if right_m - left_m < 0.01 - 1e-9:  # round-off: 2.21 - 2.2 is a little less than 0.01
+        raise ValueError("right_edge_m must be at least 0.01 m to the right of left_edge_m, not "
+                         f"{right_m} and {left_m}")
+    if scene.correction in EXACT_ONLY:
+        needed_by = f"with correction={scene.correction}"
+        if scene.motion != "exact":
+            raise ValueError(f"motion must be exact {needed_by}, not {scene.motion}: choose "
+                             "motion=exact or another correction")
+        if scene.wall_passed(scene.x_m) is not None:
+            raise ValueError(f"x_m must be from {left_m} to {right_m} {needed_by}, not {scene.x_m}")
+
+def scene_of(example: Example, changes: dict[str, Any]) -> Scene:
+    """The scene of an example, with what the user changed. Raises ValueError."""
+    settings = example.settings | changes
+    scene = Scene(**settings)
+    if "m_to_px" not in settings and scene.right_edge_m > 0:
+        # Nobody chose a zoom: take one that shows the right wall.
+        widest = (scene.width_px - 1) / scene.right_edge_m
+        scene = replace(scene, m_to_px=min(scene.m_to_px, widest))
+    return scene
+
+# ==== 13. The command line ======================================================================
+# What does the user want?
+
+COMMANDS = ["chart", "stability"]
+MAX_FRAMES = 50_000
+# What a user may type, with the words that describe it:
+NAMES = {"chart": "speed against accuracy", "stability": "the map: where methods fail",
+         "--fast": "no waiting", "--frames N": "stop after N frames", "-h": "help"}
+for each in SETTINGS.values():
+    NAMES[f"{each.name}=VALUE"] = f"{each.metadata['meaning']}: {allowed_text(each)}"
+
+def unknown(word: str) -> str:
+    """The error text for a word that means nothing, with the names that may have been meant."""
+    start = word.partition("=")[0].lower()
+    near = []
+    for name, description in NAMES.items():
+        if start in re.findall("[a-z0-9]+", f"{name} {description}".lower()):
+            near.append(name)
+    if not near:
+        near = difflib.get_close_matches(word, NAMES, n=1, cutoff=0.5)
+    if re.fullmatch("[0-9]+d", start):
+        near = [f"{start[:-1]} d"]
+    text = (f"unknown word {word}: it must be the number of an EXAMPLE, d, chart, stability, an "
+            "option or NAME=VALUE without spaces")
+    if near:
+        text += f"; did you mean {' or '.join(near)}?"
+    return text
+
+def value_of(name: str, text: str) -> Any:
+    """The value of a setting, from what a user typed after NAME=. Raises ValueError."""
+    kind: Any = type(SETTINGS[name].default)
+    value: Any = text
+    if kind is bool:
+        value = {"true": True, "false": False}.get(text.lower(), text)
+    else:
+        with suppress(ValueError):  # what is no number stays a text, which check_value refuses
+            value = kind(text)
+    check_value(name, value)
+    return value
+
+def wanted(argv: list[str] | None) -> argparse.Namespace:
+    """What the command line asks for: help, command, number, changes, details, fast and frames.
+
+    Raises ValueError or argparse.ArgumentError for what is wrong.
+    """
+    parser = argparse.ArgumentParser(add_help=False, allow_abbrev=False, exit_on_error=False)
+    parser.add_argument("words", nargs="*")
+    parser.add_argument("-h", "--help", action="store_true")
+    parser.add_argument("-d", "-D", dest="details", action="store_true")
+    parser.add_argument("--fast", action="store_true")
+    parser.add_argument("--frames", type=int, default=MAX_FRAMES)
+    options, others = parser.parse_known_intermixed_args(argv)
+    commands, numbers, changes = [], [], {}
+    for word in [*options.words, *others]:
+        name, equals, text = word.partition("=")
+        if word in ("d", "D"):
+            options.details = True
+        elif word in COMMANDS:
+            commands.append(word)
+        elif word.removeprefix("-").isdecimal():
+            numbers.append(int(word))
+        elif name in SETTINGS and equals:
+            changes[name] = value_of(name, text)
+        else:
+            raise ValueError(unknown(word))
+    if len(commands) > 1 or len(numbers) > 1:
+        raise ValueError(f"one command and one EXAMPLE at a time, not {commands + numbers}")
+    if commands and (options.details or options.fast or options.frames != MAX_FRAMES):
+        raise ValueError(f"d, --fast and --frames are for a film, not for {commands[0]}")
+    if options.frames < 1:
+        raise ValueError(f"--frames N must be a whole number from 1 up, not {options.frames}")
+    options.command = commands[0] if commands else "film"
+    options.number = 10 if commands else 0
+    if numbers:
+        options.number = numbers[0]
+    options.changes = changes
+    return options
+
+def print_manual() -> None:
+    """Print what -h shows: the usage, the examples and the settings."""
+    print(__doc__)
+    print("Examples (any other whole number is for a scene of your own):")
     for number, example in EXAMPLES.items():
         print(f"  {number:2}  {example.title}")
-    print("\nSettings: default, meaning (what is allowed)")
-    for row in fields(Scene):
-        say(f"  {row.name:20}{row.default!s:9}{row.metadata['meaning']} ({allowed_text(row)})", 31)
-    return 0
+    print("\nSettings: default, meaning and what is allowed")
+    for name, setting in SETTINGS.items():
+        print(f"  {name:20}{setting.default!s:9}{setting.metadata['meaning']}")
+        print(" " * 31 + allowed_text(setting))
 
-def value_of(kind: Callable[[str], object], text: str) -> object:
-    """The text as a value of this kind, or the text itself where it cannot be one."""
-    try:
-        return {"True": True, "False": False}[text.capitalize()] if kind is bool else kind(text)
-    except (KeyError, ValueError):
-        return text
+def title_of(number: int, changes: dict[str, Any]) -> str:
+    """The title of an example, and what the user changed."""
+    title = f"{OWN_SCENE.title} (the examples are 0 to {max(EXAMPLES)})"
+    if number in EXAMPLES:
+        title = f"Example {number}: {EXAMPLES[number].title}"
+    for name, value in changes.items():
+        title += f", {name}={value}"
+    return title
 
-def refusal(word: str) -> BadInput:
-    """The error for an unknown word. It names what is nearest: a name, a choice, a meaning."""
-    start, equals, _ = word.lower().partition("=")
-    value = "=VALUE" if equals else "=VALUE, without spaces"
-    names = {name.lower(): name for name in ("--help", *COMMANDS, *OPTIONS)}
-    names |= {name.lower(): name + value for name in SETTINGS}
-    names |= {} if equals else {key: f"the key {key}, while a film runs" for key in "psx"}
-    meanings = {start: "".join(re.findall(r"^([0-9]+)[^0-9]", start))}  # 10d: 10
-    for name, row in reversed(SETTINGS.items()):  # of two with a word, the first one counts
-        meaning, allowed = row.metadata["meaning"], row.metadata["allowed"]
-        meanings |= dict.fromkeys(re.findall(r"\w+", meaning), f"{name}{value} ({meaning})")
-        names |= {part: f"{name}={part}" for part in allowed if isinstance(part, str)}
-    near = difflib.get_close_matches(start, names, cutoff=0.7)  # with 0.6, dt would be near to d
-    near = near or [name for name in names if start and name.startswith(start)]
-    hint = names[near[0]] if near else meanings[start]
-    hint = f"nearest: {hint}" if hint else "-h lists all"
-    return BadInput(f"unknown word {word!r}: it must be an EXAMPLE (whole number), a command, an "
-                    f"option or a setting (NAME=VALUE); {hint}")
+def scene_wanted(options: argparse.Namespace) -> Scene:
+    """The scene for what the options ask for. Raises ValueError."""
+    example = EXAMPLES.get(options.number, OWN_SCENE)
+    if options.command == "film":
+        return scene_of(example, options.changes)
+    # Chart and map choose motion and correction themselves, and start on the track.
+    any_method = {"motion": "exact", "correction": "none"}
+    return truth_of(scene_of(example, options.changes | any_method))
 
-def parsed(words: list[str]) -> tuple[dict[str, str], dict[str, Any]]:
-    """Take the words apart: into EXAMPLE, command and options, and into changes of settings."""
-    given, changes = {}, {}
-    rest = iter(words)
-    for word in rest:
-        word = "d" if word in ("-d", "D") else word.replace("\N{MINUS SIGN}", "-")  # of a page
-        name, equals, text = word.partition("=")
-        if name in ("--frames", "--save"):
-            given[name] = text if equals else next(rest, "")
-        elif word in OPTIONS:
-            given[word] = ""
-        elif equals and name in SETTINGS:
-            changes[name] = value_of(type(SETTINGS[name].default), text)
-        elif word in COMMANDS or isinstance(value_of(int, word), int):
-            kind = "command" if word in COMMANDS else "EXAMPLE"
-            if kind in given:
-                raise BadInput(f"one {kind} at a time, not both {given[kind]} and {word}")
-            given[kind] = word
-        else:
-            raise refusal(word)
-    return given, changes
-
-def obey(words: list[str]) -> int:
-    """Do what the words ask for. Returns the exit status; raises BadInput."""
-    if "-h" in words or "--help" in words:
-        return manual()
-    given, changes = parsed(words)
-    command = given.pop("command", "the film")
-    number = int(given.pop("EXAMPLE", 10 if command in COMMANDS else 0))
-    for option in given:
-        if OPTIONS[option] != command:
-            raise BadInput(f"{option} is for {OPTIONS[option]}, not for {command}")
-    example = EXAMPLES.get(number, OWN_SCENE)
-    methods = {"motion": "exact", "correction": "none"} if command in COMMANDS else {}
-    for name in methods.keys() & changes:  # chart and map set both; still, a wrong one is told
-        Scene(**{"motion": "exact", name: changes[name]})
-    scene = Scene(**(example.settings | changes | methods))
-    changed = "".join(f", {name}={value}" for name, value in changes.items())
-    if number not in EXAMPLES:
-        say(f"The examples are 0 to {max(EXAMPLES)}; other numbers are yours.")
-    if command not in COMMANDS:
-        title = f"Example {number}: {example.title}" if number in EXAMPLES else example.title
-        return film(scene, number, title + changed, given)
-    on_track = truth_of(scene)  # chart and map set the methods, and keep the start
-    whose = f"Example {number}'s scene" if number in EXAMPLES else example.title
-    beyond = "" if on_track.x_m == scene.x_m else " Here all methods start on that wall."
-    heading = f"{whose}{changed}. {in_words(scene)}{beyond}"
-    if command == "stability":
-        stability(on_track, whose, heading)
+def obey(options: argparse.Namespace, scene: Scene) -> None:
+    """Do what the user asks for."""
+    title = title_of(options.number, options.changes)
+    if options.help:
+        print_manual()
+    elif options.command == "chart":
+        chart(scene, f"{title}. {start_text(scene)}")
+        say(f"Next: {PYTHON} airtrack.py stability")
+    elif options.command == "stability":
+        stability(scene, f"{title}. {start_text(scene)}")
     else:
-        chart(on_track, heading, given.get("--save"))
-    if sys.stdout.isatty():
-        print(COMMANDS[command])
-    return 0
+        show = fast_film if options.fast else film
+        has_details = options.details or options.number == 0  # the one-pager always has them
+        show(scene, options.number, title, has_details, options.frames)
+
+def refuse(fault: Exception) -> int:
+    """Print an error as one line. Returns the exit status for it."""
+    print(f"airtrack.py: error: {fault}", file=sys.stderr)
+    return 2
 
 def main(argv: list[str] | None = None) -> int:
-    """Run a command line, sys.argv's by default. Returns the exit status, 2 for an error."""
+    """Do what argv or, without it, the command line asks for. Returns the exit status."""
     try:
-        status = obey(sys.argv[1:] if argv is None else argv)
+        options = wanted(argv)
+        scene = scene_wanted(options)
+    except (ValueError, argparse.ArgumentError) as fault:
+        return refuse(fault)
+    try:
+        obey(options, scene)
         sys.stdout.flush()
-        return status
     except KeyboardInterrupt:
         return 130
-    except (BadInput, OSError) as fault:
-        if isinstance(fault, OSError):
-            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # more output would fail
-        if isinstance(fault, BrokenPipeError):  # the reader has seen enough, as in | head
-            return 0
-        print("airtrack.py: error:", *str(fault).split(), file=sys.stderr)  # on one line
-        return 2
+    except OSError as fault:
+        # Nobody reads any more, as after | head, or the disk is full. When Python ends, it would
+        # try again to print what is left.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        if not isinstance(fault, BrokenPipeError):
+            return refuse(fault)
+    return 0
 
 
 if __name__ == "__main__":

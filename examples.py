@@ -1,11 +1,10 @@
 """The air track's companion: the numbered examples, as data, and the keys.
 
 An example is a title, the settings in which its scene differs from the default one, and what it
-shows. The keys work in a little pygame window and in the terminal, whichever has the focus.
+shows. The keys work in a little pygame window and in the terminal, whichever has the focus. Nobody
+needs to read about the keys who came for the physics.
 """
 
-import contextlib
-import math
 import os
 import shutil
 import signal
@@ -13,13 +12,15 @@ import sys
 import time
 import warnings
 from collections.abc import Iterator
-from typing import Any, NamedTuple
+from contextlib import contextmanager, suppress
+from typing import Any, NamedTuple, NoReturn
 
 if sys.platform == "win32":
     import msvcrt
 else:
     import select
     import termios
+    import tty
 
 
 # ==== The examples ==============================================================================
@@ -31,7 +32,6 @@ class Example(NamedTuple):
     settings: dict[str, Any]
     look_for: str  # before the film, without the answer
     seen: str = ""  # after it
-    details: bool = False  # shown even without d
 
 ELASTIC = {"x_m": 2.0, "a_mps2": -2.0, "CR": 1.0, "show_start_mark": True}
 COARSE = ELASTIC | {"fps_target": 10.0}
@@ -47,10 +47,9 @@ EXAMPLES = {
         "show_collision_mark": False},
         "An air track: * is the car, | are the walls, and each line is one moment. Where will the "
         "car be after 45 s? Then end the film with x.",
-        "At the left wall, to which it is pulled. It comes to lie there in frame 2930 (t = 44 s), "
-        "after 26 bounces. Each of them took 20 % of its speed. From then on each frame pulls it "
-        "into the wall and puts it back.",
-        details=True),
+        "At the left wall, to which it is accelerated. It comes to lie there in frame 2930 (t = 44 "
+        "s), after 26 bounces. Each of them took 20 % of its speed. From then on each frame moves "
+        "it a little into the wall and puts it back."),
     1: Example("A first look", {
         "x_m": 2.0, "a_mps2": -1.5, "CR": 0.7, "show_collision_mark": False},
         "Watch the bottom row only, and cover the rows above with paper. There the car (*) moves "
@@ -66,27 +65,27 @@ EXAMPLES = {
         "How far does it go into the walls, and does it come out again? End the film with x.",
         "It goes up to 8 cm into the walls, and it comes out again each time. A frame moves it by "
         "9 cm, so a move may end nearly as far beyond the wall. There its velocity is reversed. It "
-        "keeps all its speed (CR=1) and nothing pulls at it. So the next move is as long as the "
+        "keeps all its speed (CR=1), and its acceleration is 0. So the next move is as long as the "
         "one before, and brings it out."),
     3: Example("No correction, losing speed", {
         "x_m": 2.0, "a_mps2": -1.5, "CR": 0.6, "correction": "none", "auto_off": False,
         "show_collision_mark": False},
-        "Now the car loses speed in each bounce, and it is pulled to the left. Does it come back "
-        "from the left wall? Watch for ten seconds, then press x.",
+        "Now the car loses speed in each bounce, and it is accelerated to the left. Does it come "
+        "back from the left wall? Watch for ten seconds, then press x.",
         "No. In frame 46 (t = 1.53 s) the car is beyond the left wall, so its velocity is "
         "reversed. But it has kept only 60 % of its speed, and a frame later it is still beyond "
         "the wall. So its velocity is reversed again, now into the wall, and so on. The car is "
-        "caught. From then on the pull makes it sink, in the end by 1 mm a frame. After nine or "
-        "ten seconds it is out of the picture, and a < stands at the edge."),
+        "caught. From then on the acceleration makes it sink into the wall, in the end by 1 mm a "
+        "frame. After nine or ten seconds it is out of the picture, and a < stands at the edge."),
     4: Example("A high frame rate", {
         "x_m": 0.2, "v_mps": 10.0, "a_mps2": -10.0, "CR": 0.8, "fps_target": 300.0,
         "show_collision_mark": False},
         "Each line is a 300th of a second. Wait until the film ends. Then scroll back, as far as "
         "your terminal keeps the lines. What does the motion look like?",
         "Like a row of arcs, each of them a parabola. For a film is a graph: position to the "
-        "right, time downwards. A constant pull draws parabolas there, as in a textbook, only "
-        "turned on their side. The right wall cuts the first arc off. The first arcs are hundreds "
-        "of lines long, and the last ones draw a tail. The film stops after 1880 frames."),
+        "right, time downwards. A constant acceleration draws parabolas there, as in a textbook, "
+        "only turned by 90 degrees. The right wall cuts the first arc off. The first arcs are "
+        "hundreds of lines long, and the last ones draw a tail. The film stops after 1880 frames."),
     5: Example("Where each collision was found", {
         "x_m": 2.0, "v_mps": 3.0, "a_mps2": 2.0, "CR": 0.7},
         "A 0 shows where the move alone put the car, beyond the wall. Where is the * in the same "
@@ -120,9 +119,10 @@ EXAMPLES = {
     9: Example("Elastic, large and irregular steps", COARSE | IRREGULAR,
         "Example 8 with irregular frames: each is up to a quarter longer or shorter. How near to "
         "the start mark does the car come back? Press x after 30 s.",
-        "It comes back elsewhere each time: it wanders. First it turns at 1.81 m, and after about "
-        "half a minute even beyond the start mark. The rebound gives back more height if the car "
-        "is found deeper in the wall. In irregular frames this depth is irregular, too."),
+        "It comes back elsewhere each time: it wanders. First it turns at about 1.81 m, and after "
+        "about half a minute even beyond the start mark. On a busy computer these figures may be a "
+        "little different. The rebound gives back more height if the car is found deeper in the "
+        "wall. In irregular frames this depth is irregular, too."),
     10: Example("The exact solution", EXACT,
         "Only 10 FPS, but exact formulas. How near to the start mark does the car come back? Begin "
         "with s, press it fourteen times to see the first bounce, then p.",
@@ -141,9 +141,11 @@ EXAMPLES = {
         "and faster. Is there a last one? When does the car rest?",
         "There is no last bounce. In truth the car bounces infinitely often before t = 11.91 s, "
         "the Zeno point, and then it rests. But rewind can settle only one bounce a frame. So its "
-        "car hops on, too low to see, until the film calls it at rest in frame 130. Replay settles "
-        "them all: with correction=replay the car is at rest in frame 122. Still, rewind is good "
-        "enough for this scene. It is never more than 4 mm off, less than a quarter of a column."),
+        "car hops on, too low to see, until the film calls it at rest in about frame 130. Replay "
+        "settles them all: with correction=replay the film stops in about frame 122. Still, rewind "
+        "is good enough for this scene. Until the film ends it is at most about 4.2 mm off, less "
+        "than a quarter of a column. On a busy computer all these figures may be a little "
+        "different."),
     13: Example("Forward Euler beside the truth", {
         "x_m": 0.25, "v_mps": 2.48, "a_mps2": -2.0, "CR": 1.0, "motion": "forward",
         "fps_target": 10.0, "show_exact_mark": True},
@@ -181,9 +183,9 @@ EXAMPLES = {
         "Now the motion is exact, but the correction is the rebound. When does the * leave the o? "
         "Does it gain energy or lose some? Press x after 20 s.",
         "The * stays on the o until the first bounce, in frame 14. After that it is wrong, by up "
-        "to 1.8 m within 20 s. The motion is exact, so the error comes from the rebound. The car "
-        "is pulled to the left wall. There the rebound lifts it against the pull and does not slow "
-        "it, so the car gains energy. At the right wall it gives some back. With "
+        "to 1.8 m within 20 s. The motion is exact, so the error comes from the rebound. The "
+        "acceleration points to the left wall. There the rebound lifts the car against it and does "
+        "not slow the car, so the car gains energy. At the right wall it loses some of it. With "
         "correction=conserve it comes back to the start mark each time, and stays within 10 cm of "
         "the o for 20 s. With correction=rewind it stays on the o."),
     18: Example("The exact solution at 4 FPS", {
@@ -199,180 +201,179 @@ EXAMPLES = {
         "x_m": 0.84, "v_mps": 0.098, "a_mps2": -2.0, "CR": 1.0, "correction": "surface",
         "fps_target": 10.0, "show_exact_mark": True},
         "No speed is lost in a bounce. Count lines from bounce to bounce: how long is each hop of "
-        "the *, beside the one before? (In 19 d, v falls by 0.20 a line in between.)",
+        "the *, beside the one before? With d after the number you see each bounce: there v jumps "
+        "up, and in all other lines it falls by 0.20 m/s.",
         "One line shorter: the hops take 15, 14, 13 ... lines, down to 2 and 1, too low to see. In "
-        "frame 134 the film calls the * at rest. By a law, each hop at CR = 1 is on average 2 k "
-        "lines longer than the one before. To get k, add the motion's number (1 for forward, 0 for "
-        "exact, -1 for backward) and the correction's (1/2 for surface, 1 for rebound, 0 for "
-        "conserve, 0 for none). Here k is -1 + 1/2 = -1/2. With motion=exact k is 1/2, and the "
-        "hops take 18, 19, 20 ... lines for half a minute, until the * meets the right wall."),
+        "frame 134 the film calls the * at rest. There is a law of the hops: at CR = 1 each hop is "
+        "on average 2 k lines longer than the hop before. To get k, add the motion's number (1 for "
+        "forward, 0 for exact, -1 for backward) and the correction's (1/2 for surface, 1 for "
+        "rebound, 0 for conserve, 0 for none). Here k is -1 + 1/2 = -1/2. With motion=exact k is "
+        "1/2, and the hops take 18, 19, 20 ... lines for half a minute, until the * meets the "
+        "right wall."),
     20: Example("Hops that lose speed, counted", {
         "x_m": 0.66, "v_mps": 0.75, "a_mps2": -2.0, "CR": 0.8, "motion": "exact",
         "fps_target": 10.0, "show_exact_mark": True},
         "Each bounce takes 20 % of the speed. Which comes to rest, the o or the *? Count the hops "
-        "of the * as in 19. Press x after 10 s.",
+        "of the * as in example 19. Press x after 10 s.",
         "Only the o comes to rest, at t = 7.05 s, its Zeno point. The hops of the * take 14, 12, "
-        "10 lines and, from frame 48 on, 9 for ever. The law for any CR is: on average, a hop is "
-        "followed by one of CR (hop + k) + k lines. Here k is 1: exact has 0 and rebound 1. So "
-        "after 9 lines come 0.8 (9 + 1) + 1 = 9. A higher frame rate makes these hops lower, but "
-        "at 30 or 60 FPS they do not end either. The cure is correction=conserve: with it the * "
-        "comes to rest at about 7 s, as the o does."),
+        "10 lines and, from frame 48 on, 9 for ever. The law for any CR is: on average a hop is "
+        "followed by one of CR (hop + k) + k lines. Here k is 0 + 1 = 1, on average. So after 9 "
+        "lines come 0.8 (9 + 1) + 1 = 9. A higher frame rate makes these hops lower, but at 30 or "
+        "60 FPS they do not end either. The cure is correction=conserve: with it the * comes to "
+        "rest at about 7 s, as the o does."),
     21: Example("Five methods on one track", EXACT | {"show_methods": True},
         "The * is the car of example 10. Which letter leaves it first, which gets furthest away, "
         "and which two are never seen? Press x after 20 s.",
         "Letter a leaves the * first, by 1 cm in frame 1. Within 20 s it gets up to 0.9 m away. "
         "Letters b and c are moved exactly, so they leave the * only after the first bounce, in "
-        "frame 14. The rebound lifts b off the wall, against the pull, and does not slow it. So b "
-        "gets furthest away, up to 1.8 m within 20 s. Conserve lifts c, too, but slows it by what "
-        "that costs. So c stays within 10 cm for these 20 s. Letters d and e are right, so the * "
-        "always hides them. The chart shows more: other starts, and costs."),
+        "frame 14. The rebound lifts b off the wall, against the acceleration, and does not slow "
+        "it. So b gets furthest away, up to 1.8 m within 20 s. Conserve lifts c, too, but slows it "
+        "by what that costs. So c stays within 10 cm for these 20 s. Letters d and e are right, so "
+        "the * always hides them. The chart shows more: other starts, and costs."),
     22: Example("The order of three lines", {
-        "x_m": 1.0, "a_mps2": -10.0, "CR": 0.5, "left_edge_m": 0.0, "right_edge_m": 2.0,
-        "fps_target": 60.0, "m_to_px": 1000.0, "motion": "forward", "correction": "surface",
+        "x_m": 1.0, "a_mps2": -10.0, "CR": 0.8, "left_edge_m": 0.0, "right_edge_m": 2.0,
+        "fps_target": 60.0, "m_to_px": 500.0, "motion": "forward", "correction": "surface",
         "show_exact_mark": True},
-        "The left wall is a floor. In each frame gravity changes v, contacts are settled, then the "
-        "ball moves. Does it ever lie still? Press x after five seconds. (> means: above 13 cm.)",
-        "No. From frame 104 on the * hops for ever, in hops of 5 lines, about 6.5 mm high. (At "
-        "full width a column is 1 mm.) From contact to contact, a game with this order of its "
-        "lines is forward + surface. So k is 1 + 1/2, and by the law of film 20 hops should end "
-        "near k (1 + CR)/(1 - CR) = 4.5 lines. The change that mends it: settle contacts last. "
-        "That is backward + surface, and k is -1/2. The film of it, 22 motion=backward, is at rest "
-        "in frame 86. The o, the true ball, lies still from t = 1.35 s on."),
+        "The left wall is a floor. The * is the ball of a game. In each frame the game adds "
+        "gravity to the velocity, settles a contact with the floor, and moves the ball. The o is "
+        "the true ball. Which of them comes to rest? Press x after eight seconds. (> means: higher "
+        "than 27 cm, out of the picture.)",
+        "Only the o does: from t = 4.02 s on it lies still. From frame 327 on the * hops for ever, "
+        "in hops of 16 lines that are 80 mm high. The order of the three lines is to blame. From "
+        "contact to contact the game moves the ball, adds gravity, and settles the contact. That "
+        "is forward + surface, so by the law of example 19 k is 1 + 1/2 on average, and the hops "
+        "should end near k (1 + CR)/(1 - CR) = 13.5 lines. The three lines are repeated in a "
+        "circle, so there are only two orders. Position, gravity, contact hops for ever, with "
+        "whichever of the three a frame begins. Gravity, position, contact comes to rest, with "
+        "whichever a frame begins. The order that comes to rest is backward + surface, and its k "
+        "is -1/2. To see it, add motion=backward: the film stops in frame 218."),
 }
 OWN_SCENE = Example("Your own scene", {},
-    "Where does the car turn? Does it come to rest?",
-    "With a pull and CR < 1 a true car comes to rest. If yours does not, and its last hops are "
-    "equally long, the method is to blame: set motion=exact correction=conserve. Films 19 and 20 "
-    "say why. (In hops of 1 line the car lies at a wall.)")
+    "Where does the car turn? Does it come to rest? (Nothing moves it if v_mps and a_mps2 are 0.)",
+    "The true car comes to rest at a wall, as CR is below 1. If yours hops on, its method is to "
+    "blame: add motion=exact correction=conserve. Examples 3 and 20 say why.")
 
 
 # ==== The terminal's keys =======================================================================
+# Each system has its own way to get keys one by one, without Enter and without showing them.
 
-ESC = "\x1b"  # a key of the window only: in a terminal arrows begin with it, and hold letters
-
-# Whether a terminal's keys come to this process: with its output in a pipe they are the reader's.
-HAS_KEYBOARD = os.isatty(0) and os.isatty(1)
+# With its input or output in a pipe or a file, this program has no terminal to read keys from.
+HAS_TERMINAL = os.isatty(0) and os.isatty(1)
+ESC = "\x1b"
 
 if sys.platform == "win32":
-    class Terminal:
-        """The keys of a Windows console, which msvcrt gives one by one and unechoed."""
+    @contextmanager
+    def taken_terminal() -> Iterator[None]:
+        """Windows gives keys one by one as it is, so there is nothing to take or to give back."""
+        yield
 
-        def read(self) -> str:
-            """The keys pressed since the last call, as characters."""
-            keys = ""
-            while HAS_KEYBOARD and msvcrt.kbhit():
-                key = msvcrt.getwch()
-                if key in "\x00\xe0":
-                    msvcrt.getwch()  # the second half of an arrow or a function key
-                elif key != ESC:
-                    keys += key
-            return keys
-
-        def take(self) -> None:
-            """Nothing to change in the console, and nothing to give back."""
-
-        give_back = take
+    def terminal_keys() -> str:
+        """The keys that were pressed since the last call."""
+        keys = ""
+        while HAS_TERMINAL and msvcrt.kbhit():
+            key = msvcrt.getwch()
+            if key in ("\x00", "\xe0"):
+                msvcrt.getwch()  # an arrow, for example, is two characters: drop both
+            else:
+                keys += key
+        return keys
 
 else:
-    class Terminal:
-        """The keys of a terminal, one by one and unechoed."""
+    @contextmanager
+    def taken_terminal() -> Iterator[None]:
+        """Get keys one by one in the `with` block. Whatever ends it gives the terminal back."""
+        if not HAS_TERMINAL:
+            yield
+            return
+        found = termios.tcgetattr(0)
 
-        found: Any = None  # its mode, as it was found first
+        def take() -> None:
+            # Without TCSANOW, setcbreak would throw away the keys that wait.
+            tty.setcbreak(0, termios.TCSANOW)
 
-        def take(self) -> None:
-            """Get keys one by one, unechoed, and Ctrl-S too; again at each look, as after fg."""
-            if HAS_KEYBOARD:
-                with contextlib.suppress(termios.error):  # a signal, or the shell has gone
-                    mode = termios.tcgetattr(0)
-                    self.found = self.found or termios.tcgetattr(0)
-                    mode[0] &= ~termios.IXON
-                    mode[3] &= ~(termios.ICANON | termios.ECHO)
-                    mode[6][termios.VMIN], mode[6][termios.VTIME] = 1, 0
-                    termios.tcsetattr(0, termios.TCSANOW, mode)
+        def give_back() -> None:
+            with suppress(OSError, termios.error):  # the terminal itself may be gone
+                # A program that was stopped by Ctrl-Z and then killed has given it back already.
+                if os.tcgetpgrp(0) == os.getpgrp():
+                    # TCSAFLUSH throws away the keys that wait, so that the shell does not get them.
+                    termios.tcsetattr(0, termios.TCSAFLUSH, found)
 
-        def give_back(self) -> None:
-            """Leave the terminal as it was found."""
-            for _ in range(9 if self.found else 0):  # signals may interrupt it
-                with contextlib.suppress(termios.error):
-                    termios.tcsetattr(0, termios.TCSANOW, self.found)
-                    break
+        def stop(number: int, frame: object) -> None:
+            give_back()
+            os.kill(os.getpid(), signal.SIGSTOP)  # the program stands still here until fg
+            take()
 
-        def read(self) -> str:
-            """The keys since the last call, up to an Esc, with which arrows and reports begin."""
-            self.take()
-            if HAS_KEYBOARD and select.select([0], [], [], 0)[0]:
-                return os.read(0, 65536).decode("ascii", "ignore").partition(ESC)[0]
+        handle("SIGTSTP", stop)  # Ctrl-Z
+        take()
+        try:
+            yield
+        finally:
+            handle("SIGTSTP", signal.SIG_DFL)
+            give_back()
+
+    def terminal_keys() -> str:
+        """The keys that were pressed since the last call."""
+        if not HAS_TERMINAL or not select.select([0], [], [], 0)[0]:
             return ""
-
+        return os.read(0, 1024).decode("ascii", "ignore")
 
 # ==== The window's keys =========================================================================
 
-WINDOW_CLOSED = "closed"
-FACES = {  # what the film does: the window's colour, and what the keys would do now
-    "waiting": ("lightblue", "Enter: begin   p: hold   x: quit"),
-    "running": ("white", "p: pause   s: step   x: quit"),
-    "PAUSED": ("darkorange", "p: resume   s: step   x: quit"),
-}
+CLOSED = "closed"  # stands for a click that closes the window
+WINDOW_TEXT = "Enter: begin   p: pause   s: step   x: quit"
 
 class Window:
-    """The little pygame window. Without pygame or a display it stays shut; why_shut says why."""
+    """The little pygame window. If it cannot be opened, why_shut says why."""
 
-    why_shut = "it was not opened"
-    state = ""  # of the film, as its face shows it
-    pygame: Any
-
-    def open(self) -> None:
-        """Open the window, or set why_shut. Pygame's sound stays off: it might print errors."""
-        os.environ["SDL_NO_SIGNAL_HANDLERS"] = "1"  # SDL would set one for SIGINT
-        if sys.platform == "linux" and "WAYLAND_DISPLAY" not in os.environ:
-            if "DISPLAY" not in os.environ:
-                self.why_shut = "there is no display"
-                return
-            os.environ.setdefault("SDL_VIDEODRIVER", "x11")  # trying Wayland prints an error
-        os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
-        os.environ.setdefault("SDL_VIDEO_WINDOW_POS", "60,60")  # not over the film's newest line
+    def __init__(self) -> None:
+        self.why_shut = ""
+        if sys.platform == "linux" and "DISPLAY" not in os.environ:
+            self.why_shut = "there is no display"
+            return
+        if sys.platform == "linux":
+            # SDL, on which pygame stands, would else open an invisible window on a dead display.
+            os.environ.setdefault("SDL_VIDEODRIVER", "x11")
+        os.environ["SDL_NO_SIGNAL_HANDLERS"] = "1"  # Ctrl-C and the like are for us
+        os.environ.setdefault("SDL_VIDEO_WINDOW_POS", "60,60")  # not over the newest line
+        os.environ["PYGAME_HIDE_SUPPORT_PROMPT"] = "1"
         try:
             with warnings.catch_warnings():
-                warnings.simplefilter("ignore")  # pygame's own, about setuptools
+                warnings.simplefilter("ignore")  # pygame's own, which do not concern the user
                 import pygame
                 import pygame.font
-            self.why_shut = "there is no display"
-            with contextlib.suppress(pygame.error):
-                pygame.display.init()
-                if pygame.display.get_driver() not in ("dummy", "offscreen"):  # they show nothing
-                    pygame.display.set_mode((300, 20))
-                    pygame.font.init()
-                    self.pygame, self.why_shut = pygame, ""
-                    self.show("waiting")
-        except BaseException as fault:  # a broken pygame may raise anything
-            is_missing = isinstance(fault, ModuleNotFoundError) and fault.name == "pygame"
-            self.why_shut = "pygame is not installed" if is_missing else (
-                f"pygame does not work ({type(fault).__name__})")
+            pygame.display.init()  # not pygame.init(): its sound may print errors
+            pygame.font.init()
+            if pygame.display.get_driver() in ("dummy", "offscreen"):
+                self.why_shut = "there is no display"  # these drivers show nothing
+                return
+            pygame.display.set_mode((300, 20))
+        except ModuleNotFoundError:
+            self.why_shut = "pygame is not installed"
+            return
+        except Exception as fault:  # a broken pygame may raise anything
+            self.why_shut = f"pygame says: {fault}"
+            return
+        pygame.display.set_caption(WINDOW_TEXT)
+        face = pygame.display.get_surface()
+        face.fill("white")
+        text = pygame.font.Font(None, 20).render(WINDOW_TEXT, True, "black")
+        face.blit(text, text.get_rect(center=face.get_rect().center))
+        pygame.display.flip()
+        self.pygame = pygame
 
-    def show(self, state: str) -> None:
-        """Say on the window's face and in its caption what the film and the keys do now."""
-        if not self.why_shut and state != self.state:
-            self.state, (colour, keys) = state, FACES[state]
-            words = f"{state}   {keys}"
-            self.pygame.display.set_caption(" ".join(words.split()))
-            surface = self.pygame.display.get_surface()
-            surface.fill(colour)
-            text = self.pygame.font.Font(None, 22).render(words, True, "black")
-            surface.blit(text, text.get_rect(center=surface.get_rect().center))
-            self.pygame.display.flip()
-
-    def read(self) -> list[str]:
-        """The keys pressed since the last call, as the characters that they give."""
+    def keys(self) -> list[str]:
+        """The keys that were pressed since the last call."""
         if self.why_shut:
             return []
-        pg, keys = self.pygame, []
-        another = pg.KMOD_ALT | pg.KMOD_META | pg.KMOD_MODE  # with Alt, Super or AltGr
-        for event in pg.event.get():
-            if event.type == pg.QUIT:
-                keys.append(WINDOW_CLOSED)
-            elif event.type == pg.VIDEOEXPOSE:  # it was covered
-                pg.display.flip()
-            elif event.type == pg.KEYDOWN and not event.mod & another:
+        pygame = self.pygame
+        with_another_key = pygame.KMOD_ALT | pygame.KMOD_META | pygame.KMOD_MODE  # Super, AltGr
+        keys = []
+        for event in pygame.event.get():
+            if event.type == pygame.QUIT:
+                keys.append(CLOSED)
+            elif event.type == pygame.VIDEOEXPOSE:
+                pygame.display.flip()  # it was covered by another window
+            elif event.type == pygame.KEYDOWN and not event.mod & with_another_key:
                 keys.append(event.unicode)
         return keys
 
@@ -381,154 +382,163 @@ class Window:
         if not self.why_shut:
             self.pygame.display.quit()
 
+# ==== What the keys do ==========================================================================
 
-# ==== Both together, and the signals ============================================================
-
-QUIT_KEYS = {"x": "x was pressed", ESC: "Esc was pressed", WINDOW_CLOSED: "the window was closed"}
-PAUSE_KEYS = ("p", "\x13")  # Ctrl-S
 CTRL_C = "\x03"
-BEGIN_KEYS = ("\r", "\n", CTRL_C)
-THINK_S, WAIT_S = 10.0, 3.0  # before the film: where a key can begin it, and where none can
-SLICE_S = 0.05  # how long a key or a signal waits for an answer, at most
-SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP", "SIGQUIT")  # Windows has only the first two
+WHY_QUIT = {"x": "x was pressed", CTRL_C: "Ctrl-C was pressed", ESC: "Esc was pressed",
+            CLOSED: "the window was closed"}
+PAUSE_KEYS = ("p", "\x13")  # Ctrl-S
+ENTER_KEYS = ("\r", "\n")
+READING_S = 10.0  # enough for the 60 words or so before a film and its question
+READING_WITHOUT_KEYS_S = 3.0  # nobody can begin it earlier with Enter, so do not keep them
+LOOK_S = 0.05  # between two looks at the keys: too short to notice
+DIAMOND = "   *\n  * *\n *   *\n  * *\n   *"
 
 class Keys:
-    """The keys of a run, and its signals."""
+    """The keys of a film: which were pressed, and what that means for the film."""
 
-    def __init__(self) -> None:
-        self.why_quit, self.status = "", 0  # why the run is to end, and its exit status then
-        self.frame, self.t_s = 0, 0.0  # how far the film is
-        self.to_show = math.inf  # frames before it is held: all, or, while paused, the steps
-        self.begun_by = ""  # the key that began the film, or the clock
-        self.signals: list[int] = []  # those that came since the last look
-        self.pause_line = ""  # that the run is paused, while it stands on the screen
-        self.terminal, self.window = Terminal(), Window()
+    def __init__(self, window: Window) -> None:
+        self.window = window
+        self.has_keys = HAS_TERMINAL or not window.why_shut
+        self.has_colours = (os.isatty(1) and not os.environ.get("NO_COLOR")
+                            and os.environ.get("TERM", "dumb") != "dumb")
+        self.why_quit = ""  # why the film is to end, or nothing
+        self.has_begun = False
+        self.is_paused = False
+        self.steps = 0  # frames to show although the film is paused
 
-    @property
-    def is_paused(self) -> bool:
-        """Whether the film shows no more frames than the steps that were asked for."""
-        return self.to_show < math.inf
+    def help(self) -> str:
+        """Which keys there are, and where; and why there is no window."""
+        places = []
+        if HAS_TERMINAL:
+            places.append("here")
+        if not self.window.why_shut:
+            places.append("in the little window")
+        text = f"Keys {' and '.join(places)}: p pauses, s steps, x quits."
+        if not self.has_keys:
+            text = "No keys here."
+        if self.window.why_shut:
+            text += f" (No window: {self.window.why_shut}.)"
+        return text
 
-    def note(self, number: int, _: object) -> None:
-        """Leave a signal to the next look: nothing changes in mid-action."""
-        self.signals.append(number)
-
-    def where(self) -> str:
-        """Where keys work; nothing where they do not."""
-        window = [] if self.window.why_shut else ["in the little window"]
-        return " and ".join(["here"] * HAS_KEYBOARD + window)
-
-    def help(self, question: str) -> Iterator[str]:
-        """What to press, and where, or why nowhere; the question; how the film begins."""
-        why = f" (no window: {self.window.why_shut})" if self.window.why_shut else ""
-        if self.where():
-            keys = f"Keys {self.where()}: p pauses, s steps, x quits"
-            begins = f"It begins in {THINK_S:g} s, or with Enter; p holds this text."
-        else:
-            keys, begins = "No keys here", f"It begins in {WAIT_S:g} s, or with Ctrl-C."
-        yield f"{keys}{why}."
-        yield question
-        yield begins
+    def how_it_begins(self) -> str:
+        """When the film begins."""
+        if self.has_keys:
+            return (f"The film begins in {READING_S:g} s, or now with Enter or Ctrl-C. p holds "
+                    "this text.")
+        return f"The film begins in {READING_WITHOUT_KEYS_S:g} s, or now with Ctrl-C."
 
     def look(self) -> None:
-        """Act on the signals and the keys that came since the last look."""
-        self.heed_signals()
-        for key in [*self.terminal.read(), *self.window.read()]:
-            self.press(key)
-        state = "running" if self.begun_by else "waiting"
-        self.window.show("PAUSED" if self.is_paused else state)
-
-    def heed_signals(self) -> None:
-        """Act on the signals that were noted: Ctrl-C's is a key, the others end the run."""
-        while self.signals:
-            number = self.signals.pop(0)
-            if number == signal.SIGINT:
-                self.press(CTRL_C)
-            else:
-                self.quit(signal.Signals(number).name, 128 + number)
+        """Act on the keys that were pressed since the last look."""
+        # An arrow, for example, begins with Esc in a terminal: drop it.
+        for key in [*terminal_keys().split(ESC)[0], *self.window.keys()]:
+            self.press(key.lower())
 
     def press(self, key: str) -> None:
         """Act on a key."""
-        key = key.lower()
-        if key in PAUSE_KEYS:
-            self.to_show = math.inf if self.is_paused else 0
+        if key in (*ENTER_KEYS, CTRL_C) and not self.has_begun:
+            if key == CTRL_C:
+                print(DIAMOND)
+            self.has_begun = True
+            self.is_paused = False
+        elif key in WHY_QUIT:
+            self.why_quit = WHY_QUIT[key]
+        elif key in PAUSE_KEYS:
+            self.is_paused = not self.is_paused
+            self.steps = 0
         elif key == "s":
-            self.to_show = self.to_show + 1 if self.is_paused else 1
-        elif key in QUIT_KEYS:
-            self.quit(QUIT_KEYS[key])
-        elif key in BEGIN_KEYS and not self.begun_by:
-            self.begun_by, self.to_show = key, math.inf
-        elif key == CTRL_C:
-            self.quit("Ctrl-C was pressed")
-
-    def quit(self, why: str, status: int = 0) -> None:
-        """End the run. The first reason counts."""
-        if not self.why_quit:
-            self.why_quit, self.status = why, status
-
-    def count(self, frame: int, t_s: float) -> None:
-        """A frame has been printed: send it out at once, and keep how far the film is."""
-        sys.stdout.flush()
-        self.frame, self.t_s = frame, t_s
-        self.to_show -= 1
+            self.is_paused = True
+            self.steps += 1
 
     def leave_time(self) -> None:
-        """Leave time to read the header. If Ctrl-C cuts it short, a diamond says so."""
-        self.wait_until(time.perf_counter() + (THINK_S if self.where() else WAIT_S))
-        if self.begun_by == CTRL_C:
-            print("   *\n  * *\n *   *\n  * *\n   *")
-        self.begun_by = self.begun_by or "the clock"
+        """Leave time to read what stands before the film. Enter, s and Ctrl-C cut it short."""
+        ends_s = time.perf_counter() + READING_S
+        if not self.has_keys:
+            ends_s = time.perf_counter() + READING_WITHOUT_KEYS_S
+        while not self.has_begun and not self.why_quit and self.steps == 0:
+            try:
+                self.look()
+                if time.perf_counter() >= ends_s and not self.is_paused:
+                    break
+                time.sleep(LOOK_S)
+            except KeyboardInterrupt:
+                self.press(CTRL_C)
+        self.has_begun = True
 
-    def wait_until(self, moment_s: float) -> bool:
-        """Sleep until moment_s of time.perf_counter, and while paused. Returns if it was paused."""
-        begun_by, was_paused = self.begun_by, False
-        while True:
+    def wait_until(self, moment_s: float, frame: int, t_s: float) -> bool:
+        """Wait for a moment of time.perf_counter(), and while the film is paused.
+
+        frame and t_s say how far the film is. Returns whether the wait was an ordinary one: False
+        if the film was paused, or is to end.
+        """
+        sys.stdout.flush()
+        self.look()
+        while not self.is_paused and not self.why_quit:
+            left_s = moment_s - time.perf_counter()
+            if left_s <= 0:
+                return True
+            time.sleep(min(left_s, LOOK_S))
             self.look()
-            self.tell_pause()
-            was_paused = was_paused or self.is_paused
-            is_step = self.is_paused and self.to_show > 0
-            is_due_now = is_step or self.begun_by != begun_by
-            left_s = 0.0 if is_due_now else moment_s - time.perf_counter()
-            if self.why_quit or (left_s <= 0 < self.to_show):
-                return was_paused
-            time.sleep(min(SLICE_S, left_s) if self.to_show else SLICE_S)
+        if self.is_paused:
+            self.hold(frame, t_s)
+        return False
 
-    def tell_pause(self) -> None:
-        """Say that the film is held; on a terminal only as long as it is: the film stays whole."""
-        is_terminal, is_held = sys.stdout.isatty(), not self.to_show and not self.why_quit
-        if is_held and not self.pause_line:
-            self.pause_line = (f"paused after frame {self.frame}, t = {self.t_s:.2f} s: p resumes, "
-                               "s steps, x quits")
-            if is_terminal:  # what wraps could not be taken back
-                self.pause_line = self.pause_line[:shutil.get_terminal_size().columns - 1]
-            print(self.pause_line, end="" if is_terminal else "\n", flush=True)
-        elif self.pause_line and not is_held:
-            if is_terminal:
-                print("\r" + " " * len(self.pause_line) + "\r", end="", flush=True)
-            self.pause_line = ""
+    def hold(self, frame: int, t_s: float) -> None:
+        """Wait until somebody resumes the film, asks for a step or quits."""
+        line = f"paused after frame {frame}, t = {t_s:.2f} s: p resumes, s steps, x quits"
+        line = line[:shutil.get_terminal_size().columns - 1]
+        try:
+            print_for_now(line)
+            while self.is_paused and self.steps == 0 and not self.why_quit:
+                time.sleep(LOOK_S)
+                self.look()
+        finally:
+            print_for_now(" " * len(line))
+        self.steps = max(0, self.steps - 1)
 
-def redirect(stack: contextlib.ExitStack, handler: Any, *names: str) -> None:
-    """Give these signals to the handler until the stack closes, but leave ignored ones alone."""
-    for name in names:
-        number = getattr(signal, name, None)
-        if number and signal.getsignal(number) != signal.SIG_IGN:
-            before = signal.signal(number, handler)
-            stack.callback(signal.signal, number, before)
+class NoKeys:
+    """What takes the place of the keys with --fast: nothing waits, and nobody presses a key."""
 
-@contextlib.contextmanager
+    has_colours = False
+    why_quit = ""
+
+    def wait_until(self, moment_s: float, frame: int, t_s: float) -> bool:
+        """Do not wait. Returns False: this was no ordinary wait."""
+        return False
+
+    def press(self, key: str) -> None:
+        """Only Ctrl-C can come, and it ends the program."""
+        raise KeyboardInterrupt
+
+def print_for_now(text: str) -> None:
+    """Print a text on a terminal, and go back to the start of its line: the next one covers it."""
+    if os.isatty(1):
+        print(text, end="\r", flush=True)
+
+# ==== Taking and giving back ====================================================================
+
+def handle(name: str, handler: Any) -> None:
+    """Let the handler act on a signal, if the system has it and nobody wants it to be ignored."""
+    number = getattr(signal, name, None)
+    if number is not None and signal.getsignal(number) != signal.SIG_IGN:
+        signal.signal(number, handler)
+
+def end_by_signal(number: int, frame: object) -> NoReturn:
+    """End the program as shells expect it, with 128 + the signal's number. Python wants a frame."""
+    sys.exit(128 + number)
+
+@contextmanager
 def taken_keys() -> Iterator[Keys]:
-    """Take window, signals and terminal for a run; give them back in the reverse order.
-
-    A display that accepts and does not answer hangs pygame, when the window opens or closes. The
-    terminal is not raw then, and Ctrl-C, left to the system meanwhile, ends the program.
-    """
-    keys = Keys()
-    with contextlib.ExitStack() as stack:
-        redirect(stack, signal.SIG_DFL, "SIGINT")
-        keys.window.open()
-        stack.callback(keys.window.close)
-        redirect(stack, keys.note, *SIGNALS)
-        stack.callback(keys.heed_signals)  # what came while the terminal was given back
-        stack.callback(keys.terminal.give_back)
-        keys.terminal.take()
-        yield keys
+    """Take window and terminal for a film. Whatever ends the `with` block gives them back."""
+    for name in ("SIGTERM", "SIGHUP", "SIGQUIT"):
+        handle(name, end_by_signal)
+    # A display that does not answer hangs pygame, and Python with it. Then only the system can act
+    # on Ctrl-C.
+    handle("SIGINT", signal.SIG_DFL)
+    window = Window()
+    handle("SIGINT", signal.default_int_handler)
+    try:
+        with taken_terminal():
+            yield Keys(window)
+    finally:
+        window.close()
