@@ -6,15 +6,15 @@ So its film is a graph: position to the right, time downwards.
     python airtrack.py chart [EXAMPLE] [NAME=VALUE ...]
     python airtrack.py stability [EXAMPLE] [NAME=VALUE ...]
 
-    EXAMPLE      the number of an example; without it 0, for chart and stability 10
+    EXAMPLE      the number of an example; without it 0, or 10 for the commands
     d            details after each line: position, velocity, frame rate
     NAME=VALUE   a setting that replaces the example's own
     --fast       no waiting, no keys and no colours: for a pipe or a file
     --frames N   stop after N frames; without it, after 50000
-    chart        speed against accuracy: what each method costs, and how wrong it is
+    chart        speed against accuracy: what each method costs, how wrong it is
     stability    the map: at which frame rates each method fails
 
-README.md says what this is good for. A lesson for a class is in .github/lesson.md.
+README.md says what this is good for. .github/lesson.md is a lesson for a class.
 """
 # What is for whom?
 #     Sections 1, 2 and 4    the physics: how a car moves and bounces, one frame at a time.
@@ -34,7 +34,7 @@ import sys
 import textwrap
 import time
 from collections import deque
-from contextlib import suppress
+from contextlib import nullcontext, suppress
 from dataclasses import Field, dataclass, field, fields, replace
 from itertools import pairwise
 from statistics import fmean
@@ -82,15 +82,15 @@ MOTIONS = {"forward": forward, "backward": backward, "exact": exact}  # name a n
 #     wall_m   the position of the wall in m.
 #     CR       the coefficient of restitution: the speed after a bounce / the speed before it.
 #
-# A collision is found when a move has ended beyond a wall. Then one of the five functions below is
-# called. They are the corrections. A correction takes the x and v where the move ended, and returns
-# the x and v after the bounce. The overlap is x - wall: how far beyond the wall the move ended. At
-# the left wall it is negative.
+# A collision is found when a move has ended beyond a wall. Then a correction takes the x and v
+# where the move ended, and returns the x and v after the bounce. There are six corrections. Five of
+# them are in this section. The overlap is x - wall: it says how far beyond the wall the move ended.
+# At the left wall it is negative.
 #
 # Here is one collision at the left wall. The motion is exact, CR is 0.8, a is -20 m/s^2, and a
 # column is 1 cm. In one frame of 0.1 s the car moves from the start to the 0, which is 8 cm beyond
-# the wall. Then each correction puts the car in another place. The last column is the energy E, if
-# we count x from the wall: then a car that stands still at the wall has E = 0.
+# the wall. Then each correction gives the car a new place (*) and a new v. The last column is the
+# energy E, if we count x from the wall: then a car that stands still at the wall has E = 0.
 #
 #     start              |           *       v = -1.00 m/s   2.90 J/kg
 #     none       *       |                   v =  2.40 m/s   1.28 J/kg
@@ -102,7 +102,30 @@ MOTIONS = {"forward": forward, "backward": backward, "exact": exact}  # name a n
 # A bounce keeps the part CR of the speed, so it keeps CR^2 of the energy: 0.64 * 2.90 is 1.86.
 # Only conserve and rewind leave the right energy. Only rewind leaves the right place, too.
 #
-# All corrections take the same five arguments, so that step() may call any of them.
+# Two functions come first, which some of the corrections use. The five corrections themselves all
+# take the same five arguments, so that step() may call any of them.
+
+def arrival(d_m: float, u_mps: float, a_mps2: float) -> tuple[float, float]:
+    """When will a car be at a wall d_m ahead of it, and how fast? Returns t_s and w_mps.
+
+    u_mps is the velocity of the car now. Here u_mps and a_mps2 are positive towards the wall, and
+    one of them must be.
+    """
+    # Energy gives the speed w at the wall: w^2 = u^2 + 2 a d. Round-off may make w^2 negative.
+    w_mps = math.sqrt(max(0.0, u_mps * u_mps + 2 * a_mps2 * d_m))
+    # Two formulas give the time t. If two nearly equal numbers are subtracted, little but round-off
+    # is left. So take the formula in which the speeds are added.
+    if u_mps > 0:
+        t_s = 2 * d_m / (u_mps + w_mps)  # from the mean velocity: d = t (u + w)/2
+    else:
+        t_s = (w_mps - u_mps) / a_mps2  # from w = u + a t. Here u <= 0, so w - u is a sum.
+    return t_s, w_mps
+
+def side_of(x_m: float, wall_m: float) -> int:
+    """On which side of the track is a car that is beyond a wall? 1 is right, -1 is left."""
+    if x_m > wall_m:
+        return 1
+    return -1
 
 def none(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Reverse v, but leave the car beyond the wall. It may never get out again.
@@ -120,16 +143,18 @@ def none(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> S
 def surface(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Put the car on the wall.
 
-    If a points into the wall, this lifts the car against a. Lifting should cost speed, but v is
-    not made smaller. So the car has too much energy.
+    If a points into the wall, this lifts the car against a. That should cost speed, but surface
+    takes nothing from v for it. So it adds energy.
     """
     return wall_m, -CR * v_mps
 
 def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
-    """Put the car in front of the wall, CR * overlap away. If a were 0, it would be there by now.
+    """Put the car in front of the wall, CR * overlap away.
 
-    If a points into the wall, the car has too much energy, for the same reason as with surface.
-    If CR * overlap is longer than the track, the car is thrown out at the other end (example 14).
+    If a is 0, this is right: since the car met the wall, the move has gone on by the overlap. The
+    true car has gone back by CR times as much. If a points into the wall, it adds energy, as
+    surface does. If CR * overlap is longer than the track, the car is thrown out at the other end
+    (example 14).
     """
     overlap_m = x_m - wall_m
     return wall_m - CR * overlap_m, -CR * v_mps
@@ -142,31 +167,18 @@ def conserve(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) 
     it. Like rebound, conserve may throw the car out.
     """
     overlap_m = x_m - wall_m
+    away = -side_of(x_m, wall_m)  # the sign of a velocity away from the wall
     # Take the car back to the wall. E does not change, so its speed w there follows from
-    # w^2 = v^2 - 2 a overlap. Round-off may make w^2 negative. The bounce leaves the speed CR w.
+    # w^2 = v^2 - 2 a overlap. It may be negative, as backward has taken energy from the car and by
+    # round-off. The bounce leaves the speed CR w.
     w_squared = max(0.0, v_mps * v_mps - 2 * a_mps2 * overlap_m)
     bounced_mps = CR * math.sqrt(w_squared)
-    # Take the car to its new place. E does not change, so its speed u there follows from
-    # u^2 = (CR w)^2 - 2 a CR overlap.
+    # Take the car to its new place, CR * overlap from the wall. E does not change, so its speed u
+    # there follows from u^2 = (CR w)^2 - 2 a CR overlap.
     u_squared = bounced_mps * bounced_mps - 2 * a_mps2 * CR * overlap_m
     if u_squared < 0:
-        return wall_m, math.copysign(bounced_mps, -overlap_m)
-    return wall_m - CR * overlap_m, math.copysign(math.sqrt(u_squared), -overlap_m)
-
-def arrival(d_m: float, u_mps: float, a_mps2: float) -> tuple[float, float]:
-    """When will a car be at a wall d_m ahead of it, and how fast? Returns t_s and w_mps.
-
-    u_mps is the velocity of the car now. Here u_mps and a_mps2 are positive towards the wall.
-    """
-    # Energy gives the speed w at the wall: w^2 = u^2 + 2 a d. Round-off may make it negative.
-    w_mps = math.sqrt(max(0.0, u_mps * u_mps + 2 * a_mps2 * d_m))
-    # Two formulas give the time t. One of them adds u and w, and the other subtracts them. If two
-    # nearly equal numbers are subtracted, little but round-off is left. So take the one that adds.
-    if u_mps > 0:
-        t_s = 2 * d_m / (u_mps + w_mps)  # from the mean velocity: d = t (u + w)/2
-    else:
-        t_s = (w_mps - u_mps) / a_mps2  # from w = u + a t. As u is not positive, -u adds.
-    return t_s, w_mps
+        return wall_m, away * bounced_mps
+    return wall_m - CR * overlap_m, away * math.sqrt(u_squared)
 
 def rewind(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Take the car back in time to the wall, let it bounce, and move it on to the frame's end.
@@ -175,17 +187,20 @@ def rewind(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) ->
     wall (example 10). Rewind cannot settle a second bounce. If the car turns beyond the wall and is
     back on the track when the frame ends, no collision is found: a missed event (example 18).
     """
-    if x_m > wall_m:
-        side = 1  # the car is beyond the right wall
-    else:
-        side = -1  # the car is beyond the left wall
-    # Let time run backwards: v changes its sign, and a does not. Then the car arrives at the wall.
-    t_s, w_mps = arrival(side * (x_m - wall_m), side * v_mps, -side * a_mps2)
-    # Let it bounce, and let the same time run forwards.
-    x_m, v_mps = exact(wall_m, -side * CR * w_mps, a_mps2, t_s)
-    if side * (x_m - wall_m) > 0:  # it is beyond the wall again: put it on the wall
-        return wall_m, v_mps
-    return x_m, v_mps
+    # Count everything positive into the wall.
+    side = side_of(x_m, wall_m)
+    depth_m = side * (x_m - wall_m)
+    inward_mps = side * v_mps
+    inward_mps2 = side * a_mps2
+    # Let time run backwards: v changes its sign, and a does not. So the car comes out of the wall
+    # with the speed inward_mps, and the acceleration towards the surface of the wall is
+    # -inward_mps2. It is there after late_s: so long ago it met the wall.
+    late_s, met_mps = arrival(depth_m, inward_mps, -inward_mps2)
+    # Let the car bounce there, and let the same time run forwards.
+    depth_m, inward_mps = exact(0.0, -CR * met_mps, inward_mps2, late_s)
+    if depth_m > 0:
+        depth_m = 0.0  # it is in the wall again: a second bounce. Put the car on the wall.
+    return wall_m + side * depth_m, side * inward_mps
 
 CORRECTIONS = {"none": none, "surface": surface, "rebound": rebound, "conserve": conserve,
                "rewind": rewind}
@@ -195,23 +210,24 @@ ALL_CORRECTIONS = [*CORRECTIONS, "replay"]
 EXACT_ONLY = ["rewind", "replay"]  # they need the exact motion
 
 # A method is a motion and a correction. Example 21 and the chart compare five methods, which have
-# the letters a to e. Whoever reads nothing else should read this table. The energy is that of a car
-# that is accelerated to the wall on which it bounces.
+# the letters a to e. Whoever reads nothing else should read this table. Its third column says what
+# happens to the energy of a car that hops on the wall to which it is accelerated.
 #
-#     method                 order   energy      it fails if                  take it for
-#     a  backward + rebound  1       goes up     heights and times matter     scenery
-#                                    and down
-#     b  exact + rebound     1       grows       the car should come to       nothing: c costs
-#                                                rest: it may hop for ever    hardly more
-#     c  exact + conserve    2       right       the overlap is longer than   most things
-#                                                the track, or an event is
-#                                                missed
-#     d  exact + rewind      exact   right       a frame holds two bounces,   short frames
-#                                                or an event is missed
-#     e  exact + replay      exact   right       never: dt may have any       the truth
-#                                                length
-# The order is exact if nothing but round-off is wrong. The motion exact, so each of b to e, needs a
-# constant a.
+#     method                 order  energy         it fails if               take it for
+#     a  backward + rebound  1      goes up and    heights or times matter.  scenery
+#                                   down           It may hop for ever.
+#     b  exact + rebound     1      too much       the car should come to    nothing: c costs
+#                                                  rest. It may hop for      hardly more
+#                                                  ever.
+#     c  exact + conserve    2      right          it misses a bounce.       most things
+#     d  exact + rewind      none   right          it misses a bounce, or a  short frames
+#                                                  frame holds two.
+#     e  exact + replay      none   right          never: dt may have any    the truth
+#                                                  length.
+#
+# Order 1 means that half the dt makes half the error, and order 2 that it makes a quarter. Methods
+# d and e have no order, as their only error is round-off. With a, b and c the car is thrown out if
+# the overlap is longer than the track. Methods b to e need a constant a.
 METHODS = {"a": ("backward", "rebound"), "b": ("exact", "rebound"), "c": ("exact", "conserve"),
            "d": ("exact", "rewind"), "e": ("exact", "replay")}
 
@@ -241,7 +257,7 @@ class Scene:
     """
 
     x_m: float = a_number(1.1, "m", -1000, 1000, "position at the start")
-    v_mps: float = a_number(0.0, "m/s", -1000, 1000, "velocity at the start, positive to the right")
+    v_mps: float = a_number(0.0, "m/s", -1000, 1000, "velocity at the start: speed to the right")
     a_mps2: float = a_number(
         0.0, "m/s^2", -1000, 1000, "acceleration, gravity g: positive to the right")
     left_edge_m: float = a_number(0.25, "m", -1000, 1000, "position of the left wall")
@@ -257,7 +273,7 @@ class Scene:
     width_px: int = a_number(135, "px", 10, 1000, "columns of the picture, which begins at x = 0")
     show_start_mark: bool = a_choice(False, YES_OR_NO, "draw a . where the car started")
     show_collision_mark: bool = a_choice(
-        True, YES_OR_NO, "draw a 0 where a move ended beyond a wall")
+        True, YES_OR_NO, "draw a 0 where the move alone ended, in a collision")
     show_exact_mark: bool = a_choice(False, YES_OR_NO, "draw an o where the car truly is")
     show_methods: bool = a_choice(False, YES_OR_NO, "draw a to e where five methods have the car")
 
@@ -293,8 +309,9 @@ def step(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> tuple[float, fl
     free_m, free_mps = move(x_m, v_mps, scene.a_mps2, dt_s)
     wall_m = scene.wall_passed(free_m)
     # Replay works out the whole frame anew. It is also asked if v has changed its sign, because
-    # the car may have turned beyond a wall.
-    if scene.correction == "replay" and (wall_m is not None or v_mps * free_mps < 0):
+    # then the car may have met a wall, turned beyond it and come back.
+    may_have_met_wall = wall_m is not None or v_mps * free_mps < 0
+    if scene.correction == "replay" and may_have_met_wall:
         x_m, v_mps, has_bounced = replay(scene, x_m, v_mps, dt_s)
         if has_bounced:
             return x_m, v_mps, free_m
@@ -375,27 +392,28 @@ class Pace:
     def __init__(self, scene: Scene, keys: Keys | NoKeys) -> None:
         self.scene = scene
         self.keys = keys
-        self.shown_s = time.perf_counter() - planned_length(scene, 1)  # so frame 1 is due now
+        self.shown_s = time.perf_counter() - planned_length(scene, 1)  # so that frame 1 is due now
         self.due_s = self.shown_s
 
-    def wait(self, frame: int, t_s: float) -> tuple[float, float]:
-        """Wait until the frame is due. Returns how long that took since the frame before, and FPS.
+    def wait(self, frames: int, t_s: float) -> tuple[float, float]:
+        """Wait until the next frame is due. frames and t_s say how far the film is.
 
-        The frames are due at planned moments. If each frame slept for dt instead, it would last
-        longer than dt, because computing and printing take time, too.
+        Returns how long the film has waited since the frame before, in s, and the frame rate. The
+        frames are due at planned moments. If each frame slept for dt instead, it would last longer
+        than dt, because computing and printing take time, too.
         """
-        planned_s = planned_length(self.scene, frame)
+        planned_s = planned_length(self.scene, frames + 1)
         self.due_s += planned_s
-        is_measured = self.keys.wait_until(self.due_s, frame - 1, t_s)
+        was_free = self.keys.wait_until(self.due_s, frames, t_s)  # free of a pause
         now_s = time.perf_counter()
         lasted_s = max(now_s - self.shown_s, 1e-6)  # the clock may not have ticked in between
         self.shown_s = now_s
-        # After a pause or a stall the plan begins anew from now. Otherwise the film would race to
-        # catch up.
-        if not is_measured or now_s > self.due_s + STALL_S:
+        # The film is far behind its plan: begin the plan anew from now. Otherwise the film would
+        # race to catch up.
+        if not was_free or now_s > self.due_s + STALL_S:
             self.due_s = now_s
-        # Also, the planned length counts then. Otherwise the car would leap.
-        if not is_measured:
+        # This frame lasted far too long: return the planned length. Otherwise the car would leap.
+        if not was_free:
             return planned_s, self.scene.fps_target
         if lasted_s > planned_s + STALL_S:
             return planned_s, 1 / lasted_s
@@ -424,13 +442,14 @@ def step_all(scenes: dict[str, Scene], cars: dict[str, State], dt_s: float) -> d
         moved[mark] = x_m, v_mps
     return moved
 
-REST_M = 0.001  # 1 mm: far less than a column, even in a picture that is zoomed in
+REST_M = 0.001  # 1 mm: less than a column, even in example 22
 
 def rest_frames(scene: Scene) -> int:
-    """For how many frames a car must be still to be at rest: for 1/3 s, but for ten at least.
+    """How many frames in a row the car must be still to be at rest.
 
-    Somebody who watches sees in 1/3 s that the car does not move. At a low rate 1/3 s is only a few
-    frames, and a car that turns may be slow for so long.
+    They last 1/3 s, which is enough to see that the car does not move. At a low rate 1/3 s is only
+    a few frames, and a car that reverses at the top of a hop may be as slow for so long. So they
+    are at least ten.
     """
     return max(10, round(scene.fps_target / 3))
 
@@ -447,9 +466,8 @@ def resting_place(scene: Scene, x_m: float) -> float:
 def is_at_rest(scene: Scene, v_mps: float, last_m: deque[float]) -> bool:
     """Whether the car is at rest at a wall. last_m has its positions in the last frames.
 
-    Some methods never leave the car quite still, so its mean distance from the wall must be small.
-    And v must be so small that a could have made it in these frames: with some methods a gives a
-    car at rest a new v in each frame.
+    Some methods never leave the car quite still. So it is enough that its mean distance from the
+    wall is small, and that its speed is no more than a adds to the speed of a car in these frames.
     """
     if len(last_m) < rest_frames(scene):
         return False
@@ -480,7 +498,7 @@ def run(scene: Scene, has_details: bool, max_frames: int, keys: Keys | NoKeys) -
     try:
         while frame < max_frames and not (is_resting and scene.auto_off):
             # Wait until the next frame is due.
-            length_s, fps = pace.wait(frame + 1, t_s)
+            length_s, fps = pace.wait(frame, t_s)
             if keys.why_quit:
                 break
             # Move the car and settle its collision. Then do the same for the other cars.
@@ -533,21 +551,20 @@ def run(scene: Scene, has_details: bool, max_frames: int, keys: Keys | NoKeys) -
 GRAZE_M = 5e-11  # far more than the round-off of a position, and less than an atom's width
 
 def next_bounce(h_m: float, rise_mps: float, g_mps2: float,
-                room_m: float) -> tuple[bool, float, float]:
-    """Where, when and how fast does the ball meet the next wall?
+                room_m: float) -> tuple[str, float, float]:
+    """Which wall does the ball meet next, after how many s, and at how many m/s?
 
-    h_m is its height, and rise_mps is its velocity, upwards. Returns whether the wall is the
-    floor, the time until then in s, and the speed there in m/s. A ball may touch the ceiling at
-    almost no speed. Round-off would decide whether it does. So a ball that would get less than
-    GRAZE_M beyond the ceiling does not meet it.
+    h_m is the height of the ball, and rise_mps is its velocity, upwards.
     """
-    # To get so high takes the energy g times the height.
+    # To get so high takes the energy g * height. A ball may touch the ceiling at almost no speed,
+    # and then round-off would decide whether it does. So a ball that would turn less than GRAZE_M
+    # beyond the ceiling does not meet it.
     energy_to_ceiling = g_mps2 * (room_m - h_m + GRAZE_M)
     if rise_mps > 0 and rise_mps * rise_mps / 2 >= energy_to_ceiling:
         flight_s, speed_mps = arrival(room_m - h_m, rise_mps, -g_mps2)
-        return False, flight_s, speed_mps
+        return "ceiling", flight_s, speed_mps
     flight_s, speed_mps = arrival(h_m, -rise_mps, g_mps2)
-    return True, flight_s, speed_mps
+    return "floor", flight_s, speed_mps
 
 def replay(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> tuple[float, float, bool]:
     """Follow the exact motion for dt_s, from bounce to bounce. Returns x_m, v_mps, has_bounced."""
@@ -560,27 +577,26 @@ def replay(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> tuple[float, 
     h_m = up * (scene.to_track(x_m) - floor_m)
     rise_mps = up * v_mps
     left_s = dt_s  # the time that is left until the frame ends
-    has_bounced = False
-    is_on_floor = False  # whether its last bounce was on the floor
+    last_wall = ""  # where it bounced last in this frame
     while rise_mps != 0 or g_mps2 != 0:  # otherwise nothing moves the ball
-        is_floor_next, flight_s, speed_mps = next_bounce(h_m, rise_mps, g_mps2, room_m)
-        if scene.CR == 1 and is_on_floor and is_floor_next:
-            # From now on all hops last equally long. Leave out those that fit in as a whole.
+        wall, flight_s, speed_mps = next_bounce(h_m, rise_mps, g_mps2, room_m)
+        if scene.CR == 1 and wall == "floor" and last_wall == "floor":
+            # From now on all hops last equally long. Leave out those that fit in as a whole. Then
+            # less time is left than a hop lasts.
             left_s %= flight_s
         if flight_s > left_s:
             break  # the frame ends before the ball gets there
         left_s -= flight_s
-        has_bounced = True
-        is_on_floor = is_floor_next
-        if is_on_floor:
-            h_m, rise_mps = 0.0, scene.CR * speed_mps
-        else:
+        last_wall = wall
+        if wall == "ceiling":
             h_m, rise_mps = room_m, -scene.CR * speed_mps
-        if is_on_floor and rise_mps * rise_mps / 2 <= g_mps2 * GRAZE_M:
-            return floor_m, 0.0, has_bounced  # at rest, as it cannot rise by GRAZE_M
+        else:
+            h_m, rise_mps = 0.0, scene.CR * speed_mps
+            if rise_mps * rise_mps / 2 <= g_mps2 * GRAZE_M:
+                return floor_m, 0.0, True  # at rest, as it cannot rise by GRAZE_M
     h_m, rise_mps = exact(h_m, rise_mps, -g_mps2, left_s)
     x_m = scene.to_track(floor_m + up * h_m)  # round-off must not leave it beyond a wall
-    return x_m, up * rise_mps, has_bounced
+    return x_m, up * rise_mps, last_wall != ""
 
 # ==== 8. The law of the hops ====================================================================
 # Why do some cars hop for ever, and others lie still too soon?
@@ -590,77 +606,89 @@ def replay(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> tuple[float, 
 # it, and g is the size of a. All frames are equally long. Count each hop in lines of the film: from
 # a line in which a collision is found to the next such line.
 #
-#     u      the first speed of the hop, upwards. The car has it where the correction put it (*).
-#     w      the last speed of the hop, downwards. The car has it where the last move ended (0).
-#     drop   how much lower the hop ends (its last 0) than it begins (its first *), in m.
-#     way    hop g dt^2/2, in m: how far the mean of u and w takes the car in one frame, by (1).
-#     m      the number of the motion: forward 1, exact 0, backward -1.
+#     hop     how many lines the hop has.
+#     u       the first speed of the hop, upwards. The car has it where the correction put it (*).
+#     w       the last speed of the hop, downwards. The car has it where the last move ended (0).
+#     drop    how much lower the hop ends (its last 0) than it begins (its first *), in m.
+#     motion  the number of the motion: forward 1, exact 0, backward -1.
 #
 # Here is a hop with exact + rebound. CR is 0.8, g is 2 m/s^2, dt is 0.1 s, a column is 1 cm.
-#     0:   0    |   *                    v =  0.80    The hop begins 4 cm above the floor, with
+#     0:   0    |   *                    v =  0.80    The hop begins 4 cm above the floor (*):
 #     1:        |          *             v =  0.60    u = 0.80 m/s.
 #     2:        |               *        v =  0.40
-#     3:        |                  *     v =  0.20    In each frame the car gets g dt, which is
-#     4:        |                   *    v =  0.00    0.20 m/s, downwards.
-#     5:        |                  *     v = -0.20
+#     3:        |                  *     v =  0.20
+#     4:        |                   *    v =  0.00    In each frame the car gets g dt downwards:
+#     5:        |                  *     v = -0.20    0.20 m/s.
 #     6:        |               *        v = -0.40
 #     7:        |          *             v = -0.60
-#     8:        |   *                    v = -0.80    The last move ends 5 cm below the floor, at
-#     9:   0    |   *                    v =  0.80    the 0, with w = 1.00 m/s.
-# The hop has 9 lines. The drop is 4 + 5 = 9 cm. The way is 9 * 2 * 0.1^2/2 = 0.09 m, also 9 cm.
-# (This film is  99 d x_m=0.29 v_mps=0.8 a_mps2=-2 CR=0.8 motion=exact correction=rebound
-# fps_target=10 m_to_px=100 width_px=50  and its line 0 is the start, drawn like line 9.)
+#     8:        |   *                    v = -0.80    The last move ends 5 cm below the floor (0):
+#     9:   0    |   *                    v =  0.80    w = 1.00 m/s.
+# The hop has 9 lines, and its drop is 4 + 5 = 9 cm. To see it in a film of your own, type
+#     99 d x_m=0.29 v_mps=0.8 a_mps2=-2 CR=0.8 motion=exact fps_target=10 m_to_px=100 width_px=50
 #
 # (1) Each frame of a hop adds g dt downwards. So from u upwards to w downwards,
 #         u + w = hop g dt                            in the drawn hop: 0.8 + 1.0 = 9 * 0.2
 # (2) How much larger is w than u? With the exact motion E does not change in flight, so w^2/2 is
-#     larger than u^2/2 by g drop. Forward and backward also change E, by m g^2 dt^2/2 a frame. So
-#         (w^2 - u^2)/2 = g drop + m hop g^2 dt^2/2
-#     The left side is (w - u) (w + u)/2. Divide both sides by (w + u)/2. By (1) it is hop g dt/2.
-#     What is left is
-#         w - u = k g dt    with    k = m + drop/way          in the drawn hop: k = 0 + 9/9 = 1
-# (3) Add (1) and (2), or subtract them: w = (hop + k) g dt/2 and u = (hop - k) g dt/2. With surface
-#     and rebound, the u of the next hop is CR w. For that hop, let k' be its k. Then
-#     (next - k') g dt/2 is CR (hop + k) g dt/2, so
+#     larger than u^2/2 by g drop. Forward and backward change E, too: in each frame by motion times
+#     g^2 dt^2/2 (section 1). So
+#         (w^2 - u^2)/2 = g drop + motion hop g^2 dt^2/2
+#     The left side is (w - u) times (w + u)/2. By (1), (w + u)/2 is hop g dt/2. Divide both sides
+#     by this, and let way be hop g dt^2/2. (So way is a length: as far as the car goes in one frame
+#     at the speed (w + u)/2.) What is left is
+#         w - u = k g dt    with    k = motion + drop/way
+#     In the drawn hop way is 9 * 2 * 0.1^2/2 = 0.09 m = 9 cm. So k is 0 + 9/9 = 1.
+# (3) By (1) and (2), w is (hop + k) g dt/2 and u is (hop - k) g dt/2. With none, surface and
+#     rebound the u of the next hop is CR w. The next hop has a k of its own: call it k'. So
+#     (next - k') g dt/2 is CR (hop + k) g dt/2, and
 #         next = CR (hop + k) + k'                    in the drawn hop: 0.8 (9 + 1) + 1 = 9
-# This is the law. Nothing in it is approximate: it holds in every hop. The drawn hop is followed by
-# one that is like it. As a rule it is not so. The first hop of example 20 has 14 lines, a drop of
-# 11.2 cm and a way of 14 cm, so k is 0.8. The next one has a drop of 1.92 cm and a way of 12 cm, so
-# k' is 0.16. And 0.8 (14 + 0.8) + 0.16 is 12.0 lines.
+# This is the law. No step was approximate, so it holds in every hop. In the first hop of example 20
+# the motion is exact, too. It has 14 lines, a drop of 11.2 cm and a way of 14 cm, so k is 0.8. The
+# next hop has a drop of 1.92 cm and a way of 12 cm, so k' is 0.16. And 0.8 (14 + 0.8) + 0.16 is
+# 12.0 lines: so many lines it has.
 #
-# How large is drop/way? A collision is found late. On average the car has met the floor half a
-# frame before, so a hop ends w dt/2 below the floor. And by (1) the way is (u + w) dt/2.
-#     surface    The hop begins on the floor. So the drop is w dt/2, about half a way. In a long hop
-#                u and w are nearly equal, so drop/way is 1/2 on average.
-#     rebound    The hop begins CR times as far above the floor as the hop before ended below it. On
-#                average this is CR w dt/2 with the w of that hop, which is u dt/2. So the drop is
-#                (u + w) dt/2, and drop/way is 1 on average.
-#     none       The law holds if CR = 1. A hop begins as deep as the hop before ended, so drop/way
-#                is 0 on average.
-#     conserve   It takes from v what the height costs. Let u and w be the speeds at the floor. They
-#                have no drop, so its number is 0. Then (1) and the law hold only on average.
+# To foretell a hop, we need its drop before it is over. Nobody knows it, but we know its average. A
+# collision is found at the end of a frame. On average the car met the floor half a frame before. So
+# a hop ends on average w dt/2 below the floor. By (1), way is (u + w) dt/2.
+#     surface    The hop begins on the floor. So the drop is w dt/2 on average. In a long hop u and
+#                w are nearly equal, so this is half a way. The average of drop/way is 1/2.
+#     rebound    The hop before ended below the floor, on average by its own w dt/2. This hop begins
+#                CR times as far above the floor. As u is CR times that w, this is u dt/2. So the
+#                drop is u dt/2 + w dt/2 on average: one way. The average of drop/way is 1.
+#     none       This hop begins where the hop before ended. At CR = 1 all hops end equally deep on
+#                average, so the average of drop/way is 0.
+#     conserve   This correction does take from v what lifting the car costs. So let u and w be the
+#                speeds that the car has at the floor. Between them there is no drop, so 0 takes the
+#                place of drop/way. But then hop is not a whole number of frames any more, and the
+#                law holds only on average.
 # Rewind and replay need no number: if they are right, so are their hops.
 #
-# What does it mean? On average k is the motion's number + the correction's number.
-#     k > 0    The car gets too much energy. At CR = 1 it hops higher and higher: each hop is on
-#              average 2 k lines longer than the hop before. At CR < 1 its hops should die out, and
-#              they do not if k (1 + CR)/(1 - CR) is two lines or more: they end near that.
+# What does it mean? The average k is motion + the average of drop/way:
+#                   none at CR = 1   surface   rebound   conserve
+#     forward              1          1 1/2       2          1
+#     exact                0            1/2       1          0
+#     backward            -1           -1/2       0         -1
+#
+#     k > 0    The car gets too much energy. At CR = 1 it hops higher and higher: on average each
+#              hop is 2 k lines longer than the hop before. At CR < 1 its hops should die out. They
+#              do not if k (1 + CR)/(1 - CR) is well over two lines: they end near that length,
+#              because there the law says next = hop. (Hops of one line are rest.)
 #     k < 0    The car gets too little energy. At CR = 1 it should hop for ever, and comes to rest.
 #     k = 0    The energy is right on average.
-# One hop may be longer or shorter. Its drop depends on how late its collision is found, and that
-# depends on the start. When the hop is over, the drop is known. So the law foretells an average.
+# All this is about averages: the start decides how late each collision is found. A hop that repeats
+# for ever has the same drop each time, and that need not be the average drop. So hops of other
+# lengths repeat, too. By (3), a hop that repeats has k = hop (1 - CR)/(1 + CR). With surface its
+# drop is at most one way, and with rebound at most two. So even backward + rebound may repeat short
+# hops for ever, with a k from 0 to 1.
 #
-# A hop that repeats for ever has the same drop each time, so it need not be the average drop. In
-# (3) set next = hop and k' = k: then k = hop (1 - CR)/(1 + CR). With exact + surface and with
-# backward + rebound hops repeat up to k = 1, with exact + rebound up to k = 2.
+# One start is special: a ball that is dropped from rest. It may be back on the floor exactly at the
+# end of a frame. Then round-off decides, and the collision may be found a whole frame late each
+# time. With surface and CR = 1 its drop is then one way. So with backward + surface k is 0, which
+# is -1 + 1, and one hop repeats for ever. With forward + surface k is 2.
 #
-# A ball that was dropped from rest may be back on the floor exactly at the end of a frame, each
-# time. Then a collision is found a whole frame late, so drop/way with surface is 1 at CR = 1. With
-# backward + surface k is -1 + 1 = 0, and one hop repeats for ever. With forward + surface k is 2.
-#
-# A program may set a small speed to 0, so that things lie still. How small? By (3), hops that
-# repeat come down at w = k g dt/(1 - CR). With forward + surface k is at most 2. So it is enough to
-# set bounces below 2 g dt/(1 - CR) to 0. At CR = 1 nothing should rest, so do not do it there.
+# Many programs set a small speed to 0, so that things lie still. How small must it be? With forward
+# + surface k is at most 2. By (2) a hop that repeats, with u = CR w, ends with w = k g dt/(1 - CR).
+# So a program with this method may set v to 0 in each bounce whose w is at most 2 g dt/(1 - CR). At
+# CR = 1 nothing should come to rest, so there it must not do this.
 
 # ==== 9. The chart: speed against accuracy ======================================================
 # What does each method cost, and how wrong is it?
@@ -715,18 +743,17 @@ def cost_us(scene: Scene, fps: int) -> float:
     """The processor time that a simulated second takes, in microseconds. Only steps count.
 
     Other programs may slow this one, and nothing can speed it up. So the least of several runs is
-    nearest to the truth.
+    nearest to the time that the processor needs.
     """
     dt_s = 1 / fps
     costs_s = []
     for _ in range(max(5, 200 // fps)):
         x_m, v_mps = scene.x_m, scene.v_mps
-        began_s = time.process_time()
+        began_s = time.perf_counter()
         for _ in range(SPAN_S * fps):
             x_m, v_mps, _ = step(scene, x_m, v_mps, dt_s)
-        costs_s.append(time.process_time() - began_s)
-    least_us = 1e6 * min(costs_s) / SPAN_S
-    return max(least_us, 0.1)  # a coarse clock may have measured 0, which has no logarithm
+        costs_s.append(time.perf_counter() - began_s)
+    return 1e6 * min(costs_s) / SPAN_S
 
 class Point(NamedTuple):
     """One method at one frame rate: a point of the chart."""
@@ -737,13 +764,11 @@ class Point(NamedTuple):
 
 def measure(scene: Scene) -> dict[str, list[Point]]:
     """Measure every method at every rate, and print the table row by row."""
-    motions, corrections = "    ", "    "
-    for letter, (motion, correction) in METHODS.items():
-        motions += f"{letter}: {motion}".rjust(15)
-        corrections += f"+ {correction}".rjust(15)
+    motions = "".join([f"{letter}: {METHODS[letter][0]}".rjust(15) for letter in METHODS])
+    corrections = "".join([f"+ {correction}".rjust(15) for _, correction in METHODS.values()])
     print()
-    print(motions)
-    print(corrections)
+    print("    " + motions)
+    print("    " + corrections)
     print(" FPS" + "  error m    us" * len(METHODS))
     points: dict[str, list[Point]] = {letter: [] for letter in METHODS}
     for fps in CHART_FPS:
@@ -754,10 +779,8 @@ def measure(scene: Scene) -> dict[str, list[Point]]:
             points[letter].append(point)
             row += f"{point.error_m:9.1e}{point.cost_us:6.0f}"
         print(row, flush=True)
-    row = "order"
-    for series in points.values():
-        row += order_text(series).rjust(7) + " " * 8
-    print(row.rstrip())
+    orders = "".join([order_text(series).rjust(7) + " " * 8 for series in points.values()])
+    print("order" + orders.rstrip())
     print()
     return points
 
@@ -768,7 +791,7 @@ def order_text(series: list[Point]) -> str:
     """
     last_m = series[-1].error_m
     if last_m < 1e-9:  # this is round-off, which has no order
-        return "exact"
+        return "none"
     doublings = math.log2(series[-4].error_m / last_m)
     return f"{doublings / 3:.1f}"
 
@@ -781,56 +804,42 @@ def error_column(error_m: float) -> int:
     error_m = min(error_m, LARGEST_ERROR_M)
     return round(COLUMNS_A_DECADE * math.log10(error_m / LEAST_ERROR_M))
 
-def cost_row(point: Point) -> int:
-    """The row of a point in the picture."""
-    return round(ROWS_A_DECADE * math.log10(point.cost_us))
-
 def picture(points: dict[str, list[Point]], pixel_m: float) -> None:
     """Draw the points as the film is drawn: error to the right, processor time downwards."""
-    rows = [cost_row(point) for series in points.values() for point in series]
+    lines: dict[int, list[str]] = {}
+    for letter, series in points.items():
+        for point in series:
+            row = round(ROWS_A_DECADE * math.log10(point.cost_us))
+            if row not in lines:
+                lines[row] = [" "] * (error_column(LARGEST_ERROR_M) + 1)
+            column = error_column(point.error_m)
+            if lines[row][column] in (" ", letter):
+                paint(lines[row], letter, column)
+            else:
+                paint(lines[row], "+", column)  # here stands another letter
     pixel_column = error_column(pixel_m)
     print("one drawn pixel |".rjust(10 + pixel_column + 1))
     print("    us    <=1 um  10 um   0.1 mm  1 mm    1 cm    0.1 m   1 m     >=10 m")
-    for row in range(min(rows), max(rows) + 1):
-        line = [" "] * (error_column(LARGEST_ERROR_M) + 1)
-        paint(line, "|", pixel_column)
-        for letter, series in points.items():
-            for point in series:
-                if cost_row(point) == row:
-                    paint_letter(line, letter, error_column(point.error_m))
+    for row in range(min(lines), max(lines) + 1):
+        line = lines.get(row, [" "] * (pixel_column + 1))
+        if line[pixel_column] == " ":
+            paint(line, "|", pixel_column)
         row_us = 10 ** (row / ROWS_A_DECADE)
         print(f"{row_us:6.0f}    {''.join(line).rstrip()}")
     print()
 
-def paint_letter(line: list[str], letter: str, column: int) -> None:
-    """Put a letter into its column or, where another letter stands, a +."""
-    if line[column] in (" ", "|", letter):
-        paint(line, letter, column)
-    else:
-        paint(line, "+", column)
-
-def first_good_point(series: list[Point], pixel_m: float) -> Point | None:
-    """The point of the lowest rate from which on all errors are within a pixel, or None."""
-    found = None
-    for point in reversed(series):
-        if point.error_m > pixel_m:
-            break
-        found = point
-    return found
-
 def conclude(points: dict[str, list[Point]], pixel_m: float) -> None:
     """Answer the question: which methods stay within a pixel, and what do they cost?"""
     answers = []
-    failed = []
     for letter, series in points.items():
-        point = first_good_point(series, pixel_m)
-        if point is None:
-            failed.append(letter)
-        else:
-            answers.append((point.cost_us, letter, point.fps))
-    answers.sort()
-    texts = [f"{letter} from {fps} FPS on, for {us:.0f} us" for us, letter, fps in answers]
-    texts += [f"{letter} at none of these rates" for letter in failed]
+        answer = (math.inf, f"{letter} at none of these rates")
+        for fps, error_m, us in reversed(series):
+            if error_m > pixel_m:
+                break  # no lower rate counts
+            answer = (us, f"{letter} from {fps} FPS on, for {us:.0f} us")
+        answers.append(answer)
+    answers.sort()  # by the cost, which stands first
+    texts = [text for _, text in answers]
     say(f"Within a drawn pixel, {pixel_m:.2g} m, in all ten runs, the cheapest first: "
         f"{'; '.join(texts)}.")
 
@@ -972,15 +981,6 @@ def fitted(scene: Scene, has_details: bool) -> Scene:
     m_to_px = scene.m_to_px * (columns - 1) / (scene.width_px - 1)
     return replace(scene, width_px=columns, m_to_px=max(m_to_px, 0.001))
 
-def introduce(scene: Scene, title: str, has_details: bool) -> Scene:
-    """Say what the film is of. Returns the scene as it is to be drawn."""
-    say(title)
-    say(scene_text(scene))
-    view = fitted(scene, has_details)
-    if view.width_px < scene.width_px:
-        say(f"The picture is drawn {view.width_px} columns wide, to fit into the terminal.")
-    return view
-
 def hops_text(collisions: list[int]) -> str:
     """The lines from collision to collision: the first four and the last two, if there are more."""
     hops = [str(after - before) for before, after in pairwise(collisions)]
@@ -996,46 +996,45 @@ def advice(scene: Scene, shown: Shown) -> str:
         text += " " + OWN_SCENE.seen
     return text
 
-def film(scene: Scene, number: int, title: str, has_details: bool, max_frames: int) -> None:
+def film(scene: Scene, options: argparse.Namespace) -> None:
     """Say what to look for, leave time to guess, show the film, and say what was to be seen."""
+    number = options.number
     example = EXAMPLES.get(number, OWN_SCENE)
     is_changed = number in EXAMPLES and scene_text(scene) != scene_text(scene_of(example, {}))
     question = example.look_for
     if is_changed:
         question = f"What differs from example {number} as it is?"
-    view = introduce(scene, title, has_details)
-    with taken_keys() as keys:
-        say(keys.help())
-        say(question)
-        say(keys.how_it_begins())
+    has_details = options.details or number == 0  # the first film should show what there is
+    say(title_of(number, options.changes))
+    say(scene_text(scene))
+    view = fitted(scene, has_details)
+    if view.width_px < scene.width_px:
+        say(f"The picture is drawn {view.width_px} columns wide, to fit into the terminal.")
+    taking = nullcontext(NoKeys()) if options.fast else taken_keys()
+    with taking as keys:
+        for text in keys.texts_before(question):
+            say(text)
         keys.leave_time()
         print()
-        shown = run(view, has_details, max_frames, keys)
+        shown = run(view, has_details, options.frames, keys)
+    if not options.fast and shown.frames > 0:
+        tell(scene, number, is_changed, shown)
+
+def tell(scene: Scene, number: int, is_changed: bool, shown: Shown) -> None:
+    """Say after a film what was to be seen, and what to type next."""
     if len(shown.collisions) > 2:
         say(hops_text(shown.collisions))
+    following = str(number + 1)
     if is_changed:
         say(f"Example {number} as it is: {PYTHON} airtrack.py {number}")
     elif number in EXAMPLES:
-        say(example.seen)
+        say(EXAMPLES[number].seen)
     else:
         say(advice(scene, shown))
-    say(f"Next: {PYTHON} airtrack.py {what_is_next(number)}")
-
-def fast_film(scene: Scene, number: int, title: str, has_details: bool, max_frames: int) -> None:
-    """Print the film without waiting and without keys."""
-    example = EXAMPLES.get(number, OWN_SCENE)
-    view = introduce(scene, title, has_details)
-    say(example.look_for)
-    print()
-    run(view, has_details, max_frames, NoKeys())
-
-def what_is_next(number: int) -> str:
-    """What to type next, after the film of this number."""
-    if number + 1 in EXAMPLES:
-        return str(number + 1)
-    if number in EXAMPLES:
-        return "chart"
-    return "-h"
+        following = "-h"
+    if number == max(EXAMPLES):
+        following = "chart"
+    say(f"Next: {PYTHON} airtrack.py {following}")
 
 # ==== 12. Checks ================================================================================
 # Which scenes are allowed?
@@ -1043,7 +1042,7 @@ def what_is_next(number: int) -> str:
 SETTINGS = {setting.name: setting for setting in fields(Scene)}
 
 # Values that people type because other programs have them, and what they are called here:
-OTHER_WORDS = {"euler": "forward or backward", "exact": "rewind or replay"}
+OTHER_WORDS = {"motion=euler": "forward or backward", "correction=exact": "rewind or replay"}
 
 def allowed_text(setting: Field[Any]) -> str:
     """What a setting may be, in words."""
@@ -1067,8 +1066,8 @@ def check_value(name: str, value: Any) -> None:
         is_allowed = False
     if not is_allowed:
         text = f"{name} must be {allowed_text(setting)}, not {value}"
-        if value in OTHER_WORDS:
-            text += f": did you mean {OTHER_WORDS[value]}?"
+        if f"{name}={value}" in OTHER_WORDS:
+            text += f": did you mean {OTHER_WORDS[f'{name}={value}']}?"
         elif "," in str(value):
             text += f": write {str(value).replace(',', '.')}"
         raise ValueError(text)
@@ -1104,11 +1103,11 @@ def scene_of(example: Example, changes: dict[str, Any]) -> Scene:
 
 COMMANDS = ["chart", "stability"]
 MAX_FRAMES = 50_000
-# What a user may type, with the words that describe it:
+# The names that a user may type, with the words that describe them:
 NAMES = {"chart": "speed against accuracy", "stability": "the map: where methods fail",
-         "--fast": "no waiting", "--frames N": "stop after N frames", "-h": "help"}
+         "--fast": "no waiting", "--frames": "stop after N frames", "--help": "-h"}
 for each in SETTINGS.values():
-    NAMES[f"{each.name}=VALUE"] = f"{each.metadata['meaning']}: {allowed_text(each)}"
+    NAMES[each.name] = f"{each.metadata['meaning']}: {allowed_text(each)}"
 
 def unknown(word: str) -> str:
     """The error text for a word that means nothing, with the names that may have been meant."""
@@ -1118,13 +1117,13 @@ def unknown(word: str) -> str:
         if start in re.findall("[a-z0-9]+", f"{name} {description}".lower()):
             near.append(name)
     if not near:
-        near = difflib.get_close_matches(word, NAMES, n=1, cutoff=0.5)
+        near = difflib.get_close_matches(start, NAMES, n=1)
     if re.fullmatch("[0-9]+d", start):
         near = [f"{start[:-1]} d"]
     text = (f"unknown word {word}: it must be the number of an EXAMPLE, d, chart, stability, an "
             "option or NAME=VALUE without spaces")
     if near:
-        text += f"; did you mean {' or '.join(near)}?"
+        text += f"; did you mean {' or '.join(near[:3])}?"
     return text
 
 def value_of(name: str, text: str) -> Any:
@@ -1185,8 +1184,9 @@ def print_manual() -> None:
         print(f"  {number:2}  {example.title}")
     print("\nSettings: default, meaning and what is allowed")
     for name, setting in SETTINGS.items():
-        print(f"  {name:20}{setting.default!s:9}{setting.metadata['meaning']}")
-        print(" " * 31 + allowed_text(setting))
+        meaning = setting.metadata["meaning"]
+        row = f"  {name:20}{setting.default!s:9}{meaning} ({allowed_text(setting)})"
+        print(textwrap.fill(row, 80, subsequent_indent=" " * 31))
 
 def title_of(number: int, changes: dict[str, Any]) -> str:
     """The title of an example, and what the user changed."""
@@ -1208,18 +1208,16 @@ def scene_wanted(options: argparse.Namespace) -> Scene:
 
 def obey(options: argparse.Namespace, scene: Scene) -> None:
     """Do what the user asks for."""
-    title = title_of(options.number, options.changes)
+    title = f"{title_of(options.number, options.changes)}. {start_text(scene)}"
     if options.help:
         print_manual()
     elif options.command == "chart":
-        chart(scene, f"{title}. {start_text(scene)}")
+        chart(scene, title)
         say(f"Next: {PYTHON} airtrack.py stability")
     elif options.command == "stability":
-        stability(scene, f"{title}. {start_text(scene)}")
+        stability(scene, title)
     else:
-        show = fast_film if options.fast else film
-        has_details = options.details or options.number == 0  # the one-pager always has them
-        show(scene, options.number, title, has_details, options.frames)
+        film(scene, options)
 
 def refuse(fault: Exception) -> int:
     """Print an error as one line. Returns the exit status for it."""

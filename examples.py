@@ -186,7 +186,7 @@ EXAMPLES = {
         "to 1.8 m within 20 s. The motion is exact, so the error comes from the rebound. The "
         "acceleration points to the left wall. There the rebound lifts the car against it and does "
         "not slow the car, so the car gains energy. At the right wall it loses some of it. With "
-        "correction=conserve it comes back to the start mark each time, and stays within 10 cm of "
+        "correction=conserve it comes back to the start mark each time, and stays within 6 cm of "
         "the o for 20 s. With correction=rewind it stays on the o."),
     18: Example("The exact solution at 4 FPS", {
         "x_m": 0.65, "v_mps": 5.0, "a_mps2": -8.0, "CR": 1.0, "motion": "exact",
@@ -228,7 +228,7 @@ EXAMPLES = {
         "Letters b and c are moved exactly, so they leave the * only after the first bounce, in "
         "frame 14. The rebound lifts b off the wall, against the acceleration, and does not slow "
         "it. So b gets furthest away, up to 1.8 m within 20 s. Conserve lifts c, too, but slows it "
-        "by what that costs. So c stays within 10 cm for these 20 s. Letters d and e are right, so "
+        "by what that costs. So c stays within 6 cm for these 20 s. Letters d and e are right, so "
         "the * always hides them. The chart shows more: other starts, and costs."),
     22: Example("The order of three lines", {
         "x_m": 1.0, "a_mps2": -10.0, "CR": 0.8, "left_edge_m": 0.0, "right_edge_m": 2.0,
@@ -351,7 +351,7 @@ class Window:
             self.why_shut = "pygame is not installed"
             return
         except Exception as fault:  # a broken pygame may raise anything
-            self.why_shut = f"pygame says: {fault}"
+            self.why_shut = f"pygame does not work: {fault}"
             return
         pygame.display.set_caption(WINDOW_TEXT)
         face = pygame.display.get_surface()
@@ -400,33 +400,28 @@ class Keys:
     def __init__(self, window: Window) -> None:
         self.window = window
         self.has_keys = HAS_TERMINAL or not window.why_shut
-        self.has_colours = (os.isatty(1) and not os.environ.get("NO_COLOR")
+        self.has_colours = (sys.stdout.isatty() and not os.environ.get("NO_COLOR")
                             and os.environ.get("TERM", "dumb") != "dumb")
         self.why_quit = ""  # why the film is to end, or nothing
         self.has_begun = False
         self.is_paused = False
         self.steps = 0  # frames to show although the film is paused
 
-    def help(self) -> str:
-        """Which keys there are, and where; and why there is no window."""
+    def texts_before(self, question: str) -> list[str]:
+        """What to say before the film: where the keys are, the question, when the film begins."""
         places = []
         if HAS_TERMINAL:
             places.append("here")
         if not self.window.why_shut:
             places.append("in the little window")
-        text = f"Keys {' and '.join(places)}: p pauses, s steps, x quits."
-        if not self.has_keys:
-            text = "No keys here."
+        where = f"Keys {' and '.join(places)}: p pauses, s steps, x quits."
         if self.window.why_shut:
-            text += f" (No window: {self.window.why_shut}.)"
-        return text
-
-    def how_it_begins(self) -> str:
-        """When the film begins."""
-        if self.has_keys:
-            return (f"The film begins in {READING_S:g} s, or now with Enter or Ctrl-C. p holds "
-                    "this text.")
-        return f"The film begins in {READING_WITHOUT_KEYS_S:g} s, or now with Ctrl-C."
+            where += f" (No window: {self.window.why_shut}.)"
+        when = f"The film begins in {READING_S:g} s, or now with Enter or Ctrl-C. p holds the text."
+        if not self.has_keys:
+            where = f"No keys here. (No window: {self.window.why_shut}.)"
+            when = f"The film begins in {READING_WITHOUT_KEYS_S:g} s, or now with Ctrl-C."
+        return [where, question, when]
 
     def look(self) -> None:
         """Act on the keys that were pressed since the last look."""
@@ -479,8 +474,9 @@ class Keys:
                 return True
             time.sleep(min(left_s, LOOK_S))
             self.look()
-        if self.is_paused:
+        if self.is_paused and self.steps == 0:
             self.hold(frame, t_s)
+        self.steps = max(0, self.steps - 1)
         return False
 
     def hold(self, frame: int, t_s: float) -> None:
@@ -494,7 +490,6 @@ class Keys:
                 self.look()
         finally:
             print_for_now(" " * len(line))
-        self.steps = max(0, self.steps - 1)
 
 class NoKeys:
     """What takes the place of the keys with --fast: nothing waits, and nobody presses a key."""
@@ -502,8 +497,15 @@ class NoKeys:
     has_colours = False
     why_quit = ""
 
+    def texts_before(self, question: str) -> list[str]:
+        """What to say before the film: only the question."""
+        return [question]
+
+    def leave_time(self) -> None:
+        """Leave no time to read."""
+
     def wait_until(self, moment_s: float, frame: int, t_s: float) -> bool:
-        """Do not wait. Returns False: this was no ordinary wait."""
+        """Do not wait. Returns False: the clock says nothing about this film."""
         return False
 
     def press(self, key: str) -> None:
@@ -512,7 +514,7 @@ class NoKeys:
 
 def print_for_now(text: str) -> None:
     """Print a text on a terminal, and go back to the start of its line: the next one covers it."""
-    if os.isatty(1):
+    if sys.stdout.isatty():
         print(text, end="\r", flush=True)
 
 # ==== Taking and giving back ====================================================================
@@ -530,13 +532,13 @@ def end_by_signal(number: int, frame: object) -> NoReturn:
 @contextmanager
 def taken_keys() -> Iterator[Keys]:
     """Take window and terminal for a film. Whatever ends the `with` block gives them back."""
-    for name in ("SIGTERM", "SIGHUP", "SIGQUIT"):
-        handle(name, end_by_signal)
     # A display that does not answer hangs pygame, and Python with it. Then only the system can act
-    # on Ctrl-C.
+    # on a signal. So Python's handlers come after the window.
     handle("SIGINT", signal.SIG_DFL)
     window = Window()
     handle("SIGINT", signal.default_int_handler)
+    for name in ("SIGTERM", "SIGHUP", "SIGQUIT"):
+        handle(name, end_by_signal)
     try:
         with taken_terminal():
             yield Keys(window)

@@ -13,7 +13,7 @@ from timeit import repeat
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
 from airtrack import Scene, cost_us, run
-from examples import EXAMPLES
+from examples import EXAMPLES, NoKeys
 
 FRAMES = 20_000
 
@@ -22,7 +22,7 @@ def frame_us(scene: Scene) -> float:
     """A frame of its film, printed into memory."""
     with redirect_stdout(io.StringIO()):
         return 1e6 / FRAMES * min(repeat(
-            lambda: run(scene, False, FRAMES, None), number=1, repeat=7, timer=time.process_time))
+            lambda: run(scene, False, FRAMES, NoKeys()), number=1, repeat=7, timer=time.process_time))
 
 
 def main() -> None:

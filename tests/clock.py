@@ -22,7 +22,7 @@ class Clock:
         stand_in = SimpleNamespace(perf_counter=lambda: self.now_s, sleep=self.sleep)
         monkeypatch.setattr(airtrack, "time", stand_in)
         monkeypatch.setattr(examples, "time", stand_in)
-        monkeypatch.setattr(examples.Terminal, "read", lambda _: self.pressed())
+        monkeypatch.setattr(examples, "terminal_keys", self.pressed)
         render_track = airtrack.render_track
 
         def render(*args: object) -> str:

@@ -2,29 +2,28 @@
 
 import contextlib
 import os
-import random
 import re
 import select
 import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
 from dataclasses import replace
-from fractions import Fraction
-from itertools import count, islice, pairwise, product
+from itertools import pairwise, product
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import pytest
 
-from airtrack import Scene, main, step, truth_of
+from airtrack import Scene, main, planned_length, step, truth_of
 from examples import EXAMPLES
 
 if sys.platform != "win32":
     import fcntl
     import struct
     import termios
+
+State = tuple[float, float, float | None]  # x_m, v_mps and mark_m
 
 HERE = Path(__file__).resolve().parent.parent
 COMMAND = [sys.executable, str(HERE / "airtrack.py")]
@@ -67,15 +66,36 @@ def environment(**changes: str | None) -> dict[str, str]:
     return {name: value for name, value in wanted.items() if value is not None}
 
 
+def states(number: int, frames: int, **changes: object) -> list[State]:
+    """x, v and mark_m after each frame of an example with changes, each as long as planned."""
+    return states_of(Scene(**EXAMPLES[number].settings | changes), frames)
+
+
+def states_of(scene: Scene, frames: int) -> list[State]:
+    """x, v and mark_m after each frame of a scene, each as long as planned."""
+    x_m, v_mps, found = scene.x_m, scene.v_mps, []
+    for frame in range(1, frames + 1):
+        planned_s = planned_length(scene, frame)
+        dt_s = planned_s if scene.use_observed_dt else 1 / scene.fps_target
+        x_m, v_mps, mark_m = step(scene, x_m, v_mps, dt_s)
+        found.append((x_m, v_mps, mark_m))
+    return found
+
+
+def collisions(found: list[State]) -> list[int]:
+    """The numbers of the frames in which a collision was found."""
+    return [frame for frame, (_, _, mark_m) in enumerate(found, 1) if mark_m is not None]
+
+
 def hops(scene: Scene, number: int) -> list[int]:
-    """The first hops of a film in lines, from each in which a bounce is found to the next."""
-    def bounces() -> Iterator[int]:
-        x_m, v_mps = scene.x_m, scene.v_mps
-        for line in count(1):
-            x_m, v_mps, mark_m = step(scene, x_m, v_mps, 1 / scene.fps_target)
-            if mark_m is not None:
-                yield line
-    return [b - a for a, b in pairwise(islice(bounces(), number + 1))]
+    """The first hops of a film in lines, from each in which a collision is found to the next."""
+    x_m, v_mps, line, found = scene.x_m, scene.v_mps, 0, list[int]()
+    while len(found) <= number:
+        line += 1
+        x_m, v_mps, mark_m = step(scene, x_m, v_mps, 1 / scene.fps_target)
+        if mark_m is not None:
+            found.append(line)
+    return [after - before for before, after in pairwise(found)]
 
 
 def hops_nearby(number: int, lines: int, **changes: object) -> list[list[int]]:
@@ -85,38 +105,15 @@ def hops_nearby(number: int, lines: int, **changes: object) -> list[list[int]]:
             for of_x, of_v in product((1 - 1e-3, 1, 1 + 1e-3), repeat=2)]
 
 
-def starts(motion: str, correction: str, CR: float, low: float, high: float,
-           number: int) -> Iterator[Scene]:
-    """Cars about to meet the wall that they are pulled to, at x = 0, for hops of so many lines."""
-    rng = random.Random(f"{motion} {correction} {CR}")
-    for _ in range(number):
-        dt_s, g_mps2, side = rng.uniform(0.01, 0.1), rng.uniform(1, 10), rng.choice([-1, 1])
-        w_mps = g_mps2 * dt_s * rng.uniform(low, high) / 2 / CR
-        yield Scene(
-            motion=motion, correction=correction, CR=CR, a_mps2=side * g_mps2, v_mps=side * w_mps,
-            x_m=-side * rng.random() * w_mps * dt_s, fps_target=1 / dt_s,
-            left_edge_m=min(0, -1000 * side), right_edge_m=max(0, -1000 * side))
-
-
-# The law of the hops: the k of each motion and correction, as airtrack.py has it.
-README = (HERE / "README.md").read_text(encoding="utf-8")
-LAW = (HERE / "airtrack.py").read_text().partition("# ==== 7. ")[2].partition("# ==== 8. ")[0]
-K = {name: float(Fraction(k)) for name, k in re.findall("   ([a-z]+) (-?[0-9/]+)(?=\\s)", LAW)}
-
 Beside = list[tuple[float, float, float | None]]  # x, the true x and mark_m, frame by frame
 
 
-def beside_the_truth(number: int, frames: int, shift: float, **changes: object) -> Beside:
-    """An example, with its v (its x where v is 0) shifted by a part of it, and with changes."""
-    settings = EXAMPLES[number].settings
-    name = "v_mps" if settings.get("v_mps") else "x_m"
-    scene = Scene(**settings | changes | {name: settings[name] * (1 + shift)})
-    truth, (x_m, v_mps), found = truth_of(scene), (scene.x_m, scene.v_mps), []
-    for frame in range(1, frames + 1):
-        x_m, v_mps, mark_m = step(scene, x_m, v_mps, 1 / scene.fps_target)
-        true_m = step(truth, truth.x_m, truth.v_mps, frame / scene.fps_target)[0]
-        found.append((x_m, true_m, mark_m))
-    return found
+def beside_the_truth(number: int, frames: int, **changes: object) -> Beside:
+    """An example with changes, beside the truth: one step of any length from the start."""
+    scene = Scene(**EXAMPLES[number].settings | changes)
+    truth = truth_of(scene)
+    return [(x_m, step(truth, truth.x_m, truth.v_mps, frame / scene.fps_target)[0], mark_m)
+            for frame, (x_m, _, mark_m) in enumerate(states_of(scene, frames), 1)]
 
 
 def apart_m(found: Beside) -> float:
@@ -128,8 +125,8 @@ PATIENCE_S = 30  # for what must come: only a test that fails waits so long
 
 def quick(change: str = "pass", pause_s: float = 0.01) -> list[str]:
     """The program, with another pause to read each header in, and with a change to it."""
-    code = (f"import os, sys, time, airtrack, examples; examples.THINK_S = {pause_s}; "
-            f"examples.WAIT_S = {pause_s}; {change}; sys.exit(airtrack.main())")
+    code = (f"import os, sys, time, airtrack, examples; examples.READING_S = {pause_s}; "
+            f"examples.READING_WITHOUT_KEYS_S = {pause_s}; {change}; sys.exit(airtrack.main())")
     return [sys.executable, "-c", code]
 
 

@@ -16,7 +16,7 @@ def windows(monkeypatch: pytest.MonkeyPatch, is_console: bool) -> ModuleType:
     typed = deque[str]()
     monkeypatch.setitem(sys.modules, "msvcrt", SimpleNamespace(
         typed=typed, kbhit=lambda: bool(typed), getwch=typed.popleft))
-    for name in ("select", "termios"):
+    for name in ("select", "termios", "tty"):
         monkeypatch.setitem(sys.modules, name, None)
     for name in ("SIGHUP", "SIGQUIT"):
         monkeypatch.delattr(signal, name, raising=False)
@@ -25,18 +25,21 @@ def windows(monkeypatch: pytest.MonkeyPatch, is_console: bool) -> ModuleType:
     spec = importlib.util.spec_from_file_location("examples_on_windows", HERE / "examples.py")
     module = importlib.util.module_from_spec(spec)  # type: ignore[arg-type]
     spec.loader.exec_module(module)  # type: ignore[union-attr]
-    monkeypatch.setattr(module.Window, "open", lambda _: None)
+    monkeypatch.setattr(module.Window, "__init__", lambda window: setattr(window, "why_shut", "no"))
     return module
 
 
 @pytest.mark.parametrize(("is_console", "typed", "keys"), [
-    (True, "pSx\x13\x1b\x03", "pSx\x13\x03"),
+    (True, "pSx\x13\x03", "pSx\x13\x03"),
     (True, "\xe0P\x00Sx\xe0H", "x"),  # an arrow's second half may be a letter: P is that of down
     (False, "x", "")], ids=["keys", "arrows", "in a pipe"])
 def test_the_console_gives_its_keys_and_no_arrows_and_a_pipe_has_none(
         is_console: bool, typed: str, keys: str, monkeypatch: pytest.MonkeyPatch) -> None:
     module = windows(monkeypatch, is_console)
     module.msvcrt.typed.extend(typed)
+    before = {name: signal.getsignal(name) for name in (signal.SIGINT, signal.SIGTERM)}
     with module.taken_keys() as taken:
-        assert taken.where() == ("here" if is_console else "")
-        assert taken.terminal.read() == keys
+        assert taken.texts_before("?")[0].startswith("Keys here" if is_console else "No keys here")
+        assert module.terminal_keys() == keys
+    for name, handler in before.items():
+        signal.signal(name, handler)
