@@ -74,7 +74,9 @@ def exact(x_m: float, v_mps: float, a_mps2: float, dt_s: float) -> State:
     """Kinematics: x + v dt + a dt^2/2, and v + a dt. No step changes E."""
     return x_m + v_mps * dt_s + a_mps2 * dt_s * dt_s / 2, v_mps + a_mps2 * dt_s
 
-MOTIONS = {"forward": forward, "backward": backward, "exact": exact}  # name a new one here
+# If you write another motion, name it here. Then film and map know it. Rewind and replay refuse it,
+# and the law of the hops (section 8) needs to know what it does to E.
+MOTIONS = {"forward": forward, "backward": backward, "exact": exact}
 
 # ==== 2. Colliding ==============================================================================
 # Where is the car after it has met a wall, and how fast is it?
@@ -108,8 +110,8 @@ MOTIONS = {"forward": forward, "backward": backward, "exact": exact}  # name a n
 def arrival(d_m: float, u_mps: float, a_mps2: float) -> tuple[float, float]:
     """When will a car be at a wall d_m ahead of it, and how fast? Returns t_s and w_mps.
 
-    u_mps is the velocity of the car now. Here u_mps and a_mps2 are positive towards the wall, and
-    one of them must be.
+    u_mps is the velocity of the car now. Both u_mps and a_mps2 count as positive if they point
+    towards the wall. At least one of them must be greater than 0.
     """
     # Energy gives the speed w at the wall: w^2 = u^2 + 2 a d. Round-off may make w^2 negative.
     w_mps = math.sqrt(max(0.0, u_mps * u_mps + 2 * a_mps2 * d_m))
@@ -144,15 +146,16 @@ def surface(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -
     """Put the car on the wall.
 
     If a points into the wall, this lifts the car against a. That should cost speed, but surface
-    takes nothing from v for it. So it adds energy.
+    takes nothing from v for it. So the car has more energy than it should: in the drawn collision
+    2.88 J/kg instead of 1.86.
     """
     return wall_m, -CR * v_mps
 
 def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Put the car in front of the wall, CR * overlap away.
 
-    If a is 0, this is right: since the car met the wall, the move has gone on by the overlap. The
-    true car has gone back by CR times as much. If a points into the wall, it adds energy, as
+    If a is 0, this is right: in the time in which the move went beyond the wall by the overlap, the
+    true car went back by CR times as much. If a points into the wall, rebound adds energy, as
     surface does. If CR * overlap is longer than the track, the car is thrown out at the other end
     (example 14).
     """
@@ -166,19 +169,21 @@ def conserve(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) 
     the moment of the bounce is wrong. The error is of second order: half the dt makes a quarter of
     it. Like rebound, conserve may throw the car out.
     """
-    overlap_m = x_m - wall_m
-    away = -side_of(x_m, wall_m)  # the sign of a velocity away from the wall
+    # Count everything positive into the wall. (The numbers are those of the drawn collision.)
+    side = side_of(x_m, wall_m)
+    depth_m = side * (x_m - wall_m)  # 0.08 m
+    inward_mps2 = side * a_mps2  # 20 m/s^2
     # Take the car back to the wall. E does not change, so its speed w there follows from
-    # w^2 = v^2 - 2 a overlap. It may be negative, as backward has taken energy from the car and by
-    # round-off. The bounce leaves the speed CR w.
-    w_squared = max(0.0, v_mps * v_mps - 2 * a_mps2 * overlap_m)
-    bounced_mps = CR * math.sqrt(w_squared)
-    # Take the car to its new place, CR * overlap from the wall. E does not change, so its speed u
-    # there follows from u^2 = (CR w)^2 - 2 a CR overlap.
-    u_squared = bounced_mps * bounced_mps - 2 * a_mps2 * CR * overlap_m
+    # w^2 = v^2 - 2 a depth. This may come out negative, by round-off or if backward has taken too
+    # much energy. The bounce leaves the speed CR w.
+    w_squared = max(0.0, v_mps * v_mps - 2 * inward_mps2 * depth_m)
+    bounced_mps = CR * math.sqrt(w_squared)  # 1.93 m/s
+    # Take the car to its new place, CR * depth in front of the wall. E does not change, so its
+    # speed u there follows from u^2 = (CR w)^2 - 2 a CR depth.
+    u_squared = bounced_mps * bounced_mps - 2 * inward_mps2 * CR * depth_m
     if u_squared < 0:
-        return wall_m, away * bounced_mps
-    return wall_m - CR * overlap_m, away * math.sqrt(u_squared)
+        return wall_m, -side * bounced_mps
+    return wall_m - side * CR * depth_m, -side * math.sqrt(u_squared)  # 0.064 m away, 1.07 m/s
 
 def rewind(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
     """Take the car back in time to the wall, let it bounce, and move it on to the frame's end.
@@ -187,20 +192,19 @@ def rewind(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) ->
     wall (example 10). Rewind cannot settle a second bounce. If the car turns beyond the wall and is
     back on the track when the frame ends, no collision is found: a missed event (example 18).
     """
-    # Count everything positive into the wall.
+    # Count everything positive into the wall, as conserve does.
     side = side_of(x_m, wall_m)
-    depth_m = side * (x_m - wall_m)
-    inward_mps = side * v_mps
-    inward_mps2 = side * a_mps2
-    # Let time run backwards: v changes its sign, and a does not. So the car comes out of the wall
-    # with the speed inward_mps, and the acceleration towards the surface of the wall is
-    # -inward_mps2. It is there after late_s: so long ago it met the wall.
-    late_s, met_mps = arrival(depth_m, inward_mps, -inward_mps2)
-    # Let the car bounce there, and let the same time run forwards.
-    depth_m, inward_mps = exact(0.0, -CR * met_mps, inward_mps2, late_s)
-    if depth_m > 0:
-        depth_m = 0.0  # it is in the wall again: a second bounce. Put the car on the wall.
-    return wall_m + side * depth_m, side * inward_mps
+    depth_m = side * (x_m - wall_m)  # 0.08 m
+    inward_mps = side * v_mps  # 3.00 m/s
+    inward_mps2 = side * a_mps2  # 20 m/s^2
+    # Run the film backwards: the car comes out of the wall as fast as it went in, and a, which
+    # still points into the wall, slows it. When is it at the surface of the wall, and how fast?
+    late_s, met_mps = arrival(depth_m, inward_mps, -inward_mps2)  # 0.030 s, 2.41 m/s
+    # Run it forwards again, from the surface, after the bounce, for the same time.
+    new_depth_m, new_inward_mps = exact(0.0, -CR * met_mps, inward_mps2, late_s)  # -0.048, -1.33
+    if new_depth_m > 0:
+        new_depth_m = 0.0  # it is in the wall again, as there was a second bounce
+    return wall_m + side * new_depth_m, side * new_inward_mps
 
 CORRECTIONS = {"none": none, "surface": surface, "rebound": rebound, "conserve": conserve,
                "rewind": rewind}
@@ -210,24 +214,22 @@ ALL_CORRECTIONS = [*CORRECTIONS, "replay"]
 EXACT_ONLY = ["rewind", "replay"]  # they need the exact motion
 
 # A method is a motion and a correction. Example 21 and the chart compare five methods, which have
-# the letters a to e. Whoever reads nothing else should read this table. Its third column says what
-# happens to the energy of a car that hops on the wall to which it is accelerated.
+# the letters a to e. Whoever reads nothing else should read this table. Its column energy says what
+# happens to the energy of a car that hops on a wall, as a ball hops on a floor.
 #
-#     method                 order  energy         it fails if               take it for
-#     a  backward + rebound  1      goes up and    heights or times matter.  scenery
-#                                   down           It may hop for ever.
-#     b  exact + rebound     1      too much       the car should come to    nothing: c costs
-#                                                  rest. It may hop for      hardly more
-#                                                  ever.
-#     c  exact + conserve    2      right          it misses a bounce.       most things
-#     d  exact + rewind      none   right          it misses a bounce, or a  short frames
-#                                                  frame holds two.
-#     e  exact + replay      none   right          never: dt may have any    the truth
-#                                                  length.
+#     method                 order  energy       it fails if                    take it for
+#     a  backward + rebound  1      up and down  heights or times matter;       scenery
+#                                                it may hop for ever
+#     b  exact + rebound     1      too much     the car should come to rest;   nothing (c is hardly
+#                                                it may hop for ever            dearer)
+#     c  exact + conserve    2      right        it misses a bounce             most things
+#     d  exact + rewind      none   right        it misses a bounce, or         short frames
+#                                                a frame holds two
+#     e  exact + replay      none   right        never: dt may have any length  the truth
 #
-# Order 1 means that half the dt makes half the error, and order 2 that it makes a quarter. Methods
-# d and e have no order, as their only error is round-off. With a, b and c the car is thrown out if
-# the overlap is longer than the track. Methods b to e need a constant a.
+# Order 1 means that half the dt makes half the error, and order 2 that it makes a quarter. Where d
+# and e do not fail, their only error is round-off, so they have no order. With a, b and c a car may
+# be thrown out if CR * overlap is longer than the track. Methods b to e need a constant a.
 METHODS = {"a": ("backward", "rebound"), "b": ("exact", "rebound"), "c": ("exact", "conserve"),
            "d": ("exact", "rewind"), "e": ("exact", "replay")}
 
@@ -339,16 +341,17 @@ def render_track(scene: Scene, x_m: float, mark_m: float | None, others: dict[st
     The line is painted from back to front: what is painted later covers what was there.
     """
     line = [" "] * scene.width_px
+    zoom = scene.m_to_px
     if scene.show_collision_mark and mark_m is not None:
-        paint(line, "0", mark_m * scene.m_to_px)
+        paint(line, "0", mark_m * zoom)
     if scene.show_start_mark:
-        paint(line, ".", scene.x_m * scene.m_to_px)
-    paint(line, "|", scene.left_edge_m * scene.m_to_px)
-    paint(line, "|", scene.right_edge_m * scene.m_to_px)
+        paint(line, ".", scene.x_m * zoom)
+    paint(line, "|", scene.left_edge_m * zoom)
+    paint(line, "|", scene.right_edge_m * zoom)
     for mark, (other_m, _) in others.items():
-        paint(line, mark, other_m * scene.m_to_px)
+        paint(line, mark, other_m * zoom)
     # The car comes last, so that nothing hides it. Outside the picture it is < or >, at the edge.
-    column = round(x_m * scene.m_to_px)
+    column = round(x_m * zoom)
     if column < 0:
         line[0] = "<"
     elif column >= scene.width_px:
@@ -378,8 +381,8 @@ def details_text(x_m: float, v_mps: float, fps: float, truth: State | None) -> s
 
 def planned_length(scene: Scene, frame: int) -> float:
     """How long this frame should last, in s. With jitter, frames are irregular in a fixed way."""
-    # The multiples of 0.618 (the golden ratio) without their whole parts are spread evenly over
-    # the numbers from 0 to 1.
+    # The multiples of 0.618 (the golden ratio - 1) without their whole parts are spread evenly
+    # over the numbers from 0 to 1.
     from_0_to_1 = (0.618 * frame) % 1
     from_minus_1_to_1 = 2 * from_0_to_1 - 1
     return (1 + scene.jitter * from_minus_1_to_1) / scene.fps_target
@@ -404,20 +407,21 @@ class Pace:
         """
         planned_s = planned_length(self.scene, frames + 1)
         self.due_s += planned_s
-        was_free = self.keys.wait_until(self.due_s, frames, t_s)  # free of a pause
+        is_on_time = self.keys.wait_until(self.due_s, frames, t_s)  # False after a pause
         now_s = time.perf_counter()
-        lasted_s = max(now_s - self.shown_s, 1e-6)  # the clock may not have ticked in between
+        lasted_s = now_s - self.shown_s
         self.shown_s = now_s
-        # The film is far behind its plan: begin the plan anew from now. Otherwise the film would
-        # race to catch up.
-        if not was_free or now_s > self.due_s + STALL_S:
+        # After a pause or a stall the plan begins anew from now. Otherwise the film would race to
+        # catch up.
+        if not is_on_time or now_s > self.due_s + STALL_S:
             self.due_s = now_s
-        # This frame lasted far too long: return the planned length. Otherwise the car would leap.
-        if not was_free:
+        # A frame that lasted far too long counts as long as planned. Otherwise the car would leap.
+        if not is_on_time:
             return planned_s, self.scene.fps_target
+        fps = 1 / max(lasted_s, 1e-6)  # the clock may not have ticked in between
         if lasted_s > planned_s + STALL_S:
-            return planned_s, 1 / lasted_s
-        return lasted_s, 1 / lasted_s
+            return planned_s, fps
+        return lasted_s, fps
 
 def truth_of(scene: Scene) -> Scene:
     """The same scene, solved exactly. A start beyond a wall is moved to the wall."""
@@ -434,49 +438,45 @@ def scenes_beside(scene: Scene) -> dict[str, Scene]:
         scenes["o"] = truth
     return scenes
 
-def step_all(scenes: dict[str, Scene], cars: dict[str, State], dt_s: float) -> dict[str, State]:
-    """Take the other cars a frame further."""
-    moved = {}
-    for mark, (x_m, v_mps) in cars.items():
-        x_m, v_mps, _ = step(scenes[mark], x_m, v_mps, dt_s)
-        moved[mark] = x_m, v_mps
-    return moved
-
 REST_M = 0.001  # 1 mm: less than a column, even in example 22
 
-def rest_frames(scene: Scene) -> int:
-    """How many frames in a row the car must be still to be at rest.
+class Rest:
+    """Is the car at rest at a wall? Its last frames decide.
 
-    They last 1/3 s, which is enough to see that the car does not move. At a low rate 1/3 s is only
+    These last 1/3 s, which is enough to see that the car does not move. At a low rate 1/3 s is only
     a few frames, and a car that reverses at the top of a hop may be as slow for so long. So they
-    are at least ten.
+    are at least ten frames.
     """
-    return max(10, round(scene.fps_target / 3))
 
-def resting_place(scene: Scene, x_m: float) -> float:
-    """The wall at which the car can rest: the one that a points to, or the nearer one if a is 0."""
-    middle_m = (scene.left_edge_m + scene.right_edge_m) / 2
-    is_right = scene.a_mps2 > 0
-    if scene.a_mps2 == 0:
-        is_right = x_m > middle_m
-    if is_right:
-        return scene.right_edge_m
-    return scene.left_edge_m
+    def __init__(self, scene: Scene) -> None:
+        self.scene = scene
+        self.frames = max(10, round(scene.fps_target / 3))
+        self.last_m = deque[float](maxlen=self.frames)  # it forgets the oldest position by itself
+        # In these frames a makes a car so fast:
+        self.slow_mps = abs(scene.a_mps2) * self.frames / scene.fps_target
 
-def is_at_rest(scene: Scene, v_mps: float, last_m: deque[float]) -> bool:
-    """Whether the car is at rest at a wall. last_m has its positions in the last frames.
+    def wall_m(self, x_m: float) -> float:
+        """The wall at which the car can rest: the one that a points to, or the nearer one."""
+        left_m, right_m = self.scene.left_edge_m, self.scene.right_edge_m
+        is_right_nearer = x_m - left_m > right_m - x_m
+        if self.scene.a_mps2 > 0 or (self.scene.a_mps2 == 0 and is_right_nearer):
+            return right_m
+        return left_m
 
-    Some methods never leave the car quite still. So it is enough that its mean distance from the
-    wall is small, and that its speed is no more than a adds to the speed of a car in these frames.
-    """
-    if len(last_m) < rest_frames(scene):
-        return False
-    wall_m = resting_place(scene, last_m[-1])
-    if abs(last_m[-1] - wall_m) > REST_M * len(last_m):
-        return False  # this position alone makes the mean too large, so do not work it out
-    mean_m = fmean([abs(x_m - wall_m) for x_m in last_m])
-    lasted_s = len(last_m) / scene.fps_target
-    return mean_m <= REST_M and abs(v_mps) <= abs(scene.a_mps2) * lasted_s
+    def is_reached(self, x_m: float, v_mps: float) -> bool:
+        """Whether the car is at rest, if this is its state after the next frame.
+
+        Some methods never leave the car quite still. So it is enough that its mean distance from
+        the wall is small, and that it is no faster than a would make it in these frames.
+        """
+        self.last_m.append(x_m)
+        wall_m = self.wall_m(x_m)
+        if len(self.last_m) < self.frames or abs(v_mps) > self.slow_mps:
+            return False
+        if abs(x_m - wall_m) > REST_M * self.frames:
+            return False  # this distance alone makes the mean too large
+        distances_m = [abs(last_m - wall_m) for last_m in self.last_m]
+        return sum(distances_m) / self.frames <= REST_M
 
 class Shown(NamedTuple):
     """What a film has shown."""
@@ -492,7 +492,7 @@ def run(scene: Scene, has_details: bool, max_frames: int, keys: Keys | NoKeys) -
     others = {mark: (other.x_m, other.v_mps) for mark, other in other_scenes.items()}
     frame, t_s = 0, 0.0
     collisions: list[int] = []
-    last_m = deque[float](maxlen=rest_frames(scene))  # it forgets the oldest position by itself
+    rest = Rest(scene)
     is_resting = False
     pace = Pace(scene, keys)
     try:
@@ -504,7 +504,10 @@ def run(scene: Scene, has_details: bool, max_frames: int, keys: Keys | NoKeys) -
             # Move the car and settle its collision. Then do the same for the other cars.
             dt_s = length_s if scene.use_observed_dt else 1 / scene.fps_target
             x_m, v_mps, mark_m = step(scene, x_m, v_mps, dt_s)
-            others = step_all(other_scenes, others, dt_s)
+            for mark, other_scene in other_scenes.items():
+                other_m, other_mps = others[mark]
+                other_m, other_mps, _ = step(other_scene, other_m, other_mps, dt_s)
+                others[mark] = other_m, other_mps
             # Draw the frame.
             line = render_track(scene, x_m, mark_m, others)
             if keys.has_colours:
@@ -517,8 +520,7 @@ def run(scene: Scene, has_details: bool, max_frames: int, keys: Keys | NoKeys) -
             t_s += dt_s
             if mark_m is not None:
                 collisions.append(frame)
-            last_m.append(x_m)
-            is_resting = is_at_rest(scene, v_mps, last_m)
+            is_resting = rest.is_reached(x_m, v_mps)
     except KeyboardInterrupt:
         keys.press(CTRL_C)
     if keys.why_quit:
@@ -622,73 +624,73 @@ def replay(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> tuple[float, 
 #     6:        |               *        v = -0.40
 #     7:        |          *             v = -0.60
 #     8:        |   *                    v = -0.80    The last move ends 5 cm below the floor (0):
-#     9:   0    |   *                    v =  0.80    w = 1.00 m/s.
-# The hop has 9 lines, and its drop is 4 + 5 = 9 cm. To see it in a film of your own, type
-#     99 d x_m=0.29 v_mps=0.8 a_mps2=-2 CR=0.8 motion=exact fps_target=10 m_to_px=100 width_px=50
+#     9:   0    |   *                    v =  0.80    w = 1.00 m/s. Then comes the bounce.
+# The hop has 9 lines, 1 to 9, and its drop is 4 + 5 = 9 cm. To see it, type  python airtrack.py 99
+# d and then, in the same line,
+#     x_m=0.29 v_mps=0.8 a_mps2=-2 CR=0.8 motion=exact fps_target=10 m_to_px=100 width_px=50
 #
 # (1) Each frame of a hop adds g dt downwards. So from u upwards to w downwards,
-#         u + w = hop g dt                            in the drawn hop: 0.8 + 1.0 = 9 * 0.2
+#         u + w = hop g dt                                in the drawn hop: 0.8 + 1.0 = 9 * 0.2
 # (2) How much larger is w than u? With the exact motion E does not change in flight, so w^2/2 is
 #     larger than u^2/2 by g drop. Forward and backward change E, too: in each frame by motion times
 #     g^2 dt^2/2 (section 1). So
 #         (w^2 - u^2)/2 = g drop + motion hop g^2 dt^2/2
-#     The left side is (w - u) times (w + u)/2. By (1), (w + u)/2 is hop g dt/2. Divide both sides
-#     by this, and let way be hop g dt^2/2. (So way is a length: as far as the car goes in one frame
-#     at the speed (w + u)/2.) What is left is
+#     The left side is (w - u) times (w + u)/2, and by (1) that is (w - u) hop g dt/2. Divide both
+#     sides by hop g dt/2:
+#         w - u = 2 drop/(hop dt) + motion g dt
+#     We want to compare both parts. So let way = hop g dt^2/2. Then 2 drop/(hop dt) is
+#     (drop/way) g dt, and
 #         w - u = k g dt    with    k = motion + drop/way
 #     In the drawn hop way is 9 * 2 * 0.1^2/2 = 0.09 m = 9 cm. So k is 0 + 9/9 = 1.
 # (3) By (1) and (2), w is (hop + k) g dt/2 and u is (hop - k) g dt/2. With none, surface and
 #     rebound the u of the next hop is CR w. The next hop has a k of its own: call it k'. So
 #     (next - k') g dt/2 is CR (hop + k) g dt/2, and
-#         next = CR (hop + k) + k'                    in the drawn hop: 0.8 (9 + 1) + 1 = 9
-# This is the law. No step was approximate, so it holds in every hop. In the first hop of example 20
-# the motion is exact, too. It has 14 lines, a drop of 11.2 cm and a way of 14 cm, so k is 0.8. The
-# next hop has a drop of 1.92 cm and a way of 12 cm, so k' is 0.16. And 0.8 (14 + 0.8) + 0.16 is
-# 12.0 lines: so many lines it has.
+#         next = CR (hop + k) + k'                        in the drawn hop: 0.8 (9 + 1) + 1 = 9
+# This is the law. No step was approximate. So with none, surface and rebound it holds in every hop
+# that does not meet the ceiling. Here is another hop: example 20 is exact + rebound, too. Its first
+# hop has 14 lines, a drop of 11.2 cm and a way of 14 cm, so k is 0.8. Its second hop has a drop of
+# 1.92 cm and a way of 12 cm, so k' is 0.16. The law says 0.8 (14 + 0.8) + 0.16 = 12.0 lines for the
+# second hop, and it has 12.
 #
-# To foretell a hop, we need its drop before it is over. Nobody knows it, but we know its average. A
-# collision is found at the end of a frame. On average the car met the floor half a frame before. So
-# a hop ends on average w dt/2 below the floor. By (1), way is (u + w) dt/2.
-#     surface    The hop begins on the floor. So the drop is w dt/2 on average. In a long hop u and
-#                w are nearly equal, so this is half a way. The average of drop/way is 1/2.
-#     rebound    The hop before ended below the floor, on average by its own w dt/2. This hop begins
-#                CR times as far above the floor. As u is CR times that w, this is u dt/2. So the
-#                drop is u dt/2 + w dt/2 on average: one way. The average of drop/way is 1.
-#     none       This hop begins where the hop before ended. At CR = 1 all hops end equally deep on
-#                average, so the average of drop/way is 0.
-#     conserve   This correction does take from v what lifting the car costs. So let u and w be the
-#                speeds that the car has at the floor. Between them there is no drop, so 0 takes the
-#                place of drop/way. But then hop is not a whole number of frames any more, and the
-#                law holds only on average.
-# Rewind and replay need no number: if they are right, so are their hops.
-#
-# What does it mean? The average k is motion + the average of drop/way:
+# But who wants to foretell a hop does not know its drop. What is its average? A collision is found
+# at the end of a frame. On average the car met the floor half a frame before, so a hop ends w dt/2
+# below the floor. By (1), way is (u + w) dt/2. Let the hop be long, so that u and w differ little.
+#     surface    The hop begins on the floor. So the drop is w dt/2 on average, which is half a way.
+#     rebound    The hop before ended below the floor, by half a frame of its own w. This hop begins
+#                CR times as far above the floor, and its u is CR times that w. So it begins u dt/2
+#                above the floor. The drop is u dt/2 + w dt/2 on average, which is one way.
+#     none       At CR = 1 the hop begins as deep as the hop before ended. So the drop is 0 on
+#     average. conserve   This correction takes from v what the lift costs. Look at the speeds that
+#     the car has
+#                when it leaves the floor and when it is back. Between these moments there is no
+#                drop.
+# Rewind and replay have no k: if they are right, so are their hops. So the average k is
 #                   none at CR = 1   surface   rebound   conserve
 #     forward              1          1 1/2       2          1
 #     exact                0            1/2       1          0
 #     backward            -1           -1/2       0         -1
 #
-#     k > 0    The car gets too much energy. At CR = 1 it hops higher and higher: on average each
-#              hop is 2 k lines longer than the hop before. At CR < 1 its hops should die out. They
-#              do not if k (1 + CR)/(1 - CR) is well over two lines: they end near that length,
-#              because there the law says next = hop. (Hops of one line are rest.)
+# What does it mean? (If nothing else is said, all this is an average: the start decides how late
+# each collision is found.)
+#     k > 0    The car gets too much energy. At CR = 1 it hops higher and higher: each hop is 2 k
+#              lines longer than the hop before. At CR < 1 its hops should die out, but there is a
+#              length for which the law says next = hop: k (1 + CR)/(1 - CR). If that is two lines
+#              or more, they end near it. (Hops of one line are rest.)
 #     k < 0    The car gets too little energy. At CR = 1 it should hop for ever, and comes to rest.
-#     k = 0    The energy is right on average.
-# All this is about averages: the start decides how late each collision is found. A hop that repeats
-# for ever has the same drop each time, and that need not be the average drop. So hops of other
-# lengths repeat, too. By (3), a hop that repeats has k = hop (1 - CR)/(1 + CR). With surface its
-# drop is at most one way, and with rebound at most two. So even backward + rebound may repeat short
-# hops for ever, with a k from 0 to 1.
+#     k = 0    The energy is right.
+# For example, with exact + surface at CR = 1 a hop of 60 lines is followed by 61, then by 62 lines.
+# With exact + rebound at CR = 0.8 hops end near 1 * 1.8/0.2 = 9 lines.
 #
-# One start is special: a ball that is dropped from rest. It may be back on the floor exactly at the
-# end of a frame. Then round-off decides, and the collision may be found a whole frame late each
-# time. With surface and CR = 1 its drop is then one way. So with backward + surface k is 0, which
-# is -1 + 1, and one hop repeats for ever. With forward + surface k is 2.
-#
-# Many programs set a small speed to 0, so that things lie still. How small must it be? With forward
-# + surface k is at most 2. By (2) a hop that repeats, with u = CR w, ends with w = k g dt/(1 - CR).
-# So a program with this method may set v to 0 in each bounce whose w is at most 2 g dt/(1 - CR). At
-# CR = 1 nothing should come to rest, so there it must not do this.
+# Three remarks, without proof. A hop that repeats for ever has the same drop each time, and this
+# may be another drop than the average one. Then k is hop (1 - CR)/(1 + CR), which is at most 1 with
+# exact + surface and backward + rebound, and below 2 with exact + rebound. So backward + rebound,
+# too, may hop for ever, in short hops. A ball that is dropped from rest may be back on the floor
+# exactly at the end of a frame, and round-off may find each collision a whole frame late. Then with
+# surface at CR = 1 the drop is one way: backward + surface has k = 0 and repeats one hop for ever,
+# and forward + surface has k = 2. Many programs set a small speed to 0, so that things lie still.
+# By (2), a hop that repeats ends with w = k g dt/(1 - CR), and with forward + surface k is at most
+# 2. So with this method it is enough to set v to 0 in a bounce with a w of at most 2 g dt/(1 - CR).
+# Do not do it at CR = 1.
 
 # ==== 9. The chart: speed against accuracy ======================================================
 # What does each method cost, and how wrong is it?
@@ -1066,10 +1068,12 @@ def check_value(name: str, value: Any) -> None:
         is_allowed = False
     if not is_allowed:
         text = f"{name} must be {allowed_text(setting)}, not {value}"
-        if f"{name}={value}" in OTHER_WORDS:
-            text += f": did you mean {OTHER_WORDS[f'{name}={value}']}?"
-        elif "," in str(value):
-            text += f": write {str(value).replace(',', '.')}"
+        typed = f"{name}={value}"
+        if typed in OTHER_WORDS:
+            text += f": did you mean {OTHER_WORDS[typed]}?"
+        elif "," in typed:
+            with_a_point = str(value).replace(",", ".")
+            text += f": write {with_a_point}"
         raise ValueError(text)
 
 def check(scene: Scene) -> None:
@@ -1102,7 +1106,6 @@ def scene_of(example: Example, changes: dict[str, Any]) -> Scene:
 # What does the user want?
 
 COMMANDS = ["chart", "stability"]
-MAX_FRAMES = 50_000
 # The names that a user may type, with the words that describe them:
 NAMES = {"chart": "speed against accuracy", "stability": "the map: where methods fail",
          "--fast": "no waiting", "--frames": "stop after N frames", "--help": "-h"}
@@ -1148,7 +1151,7 @@ def wanted(argv: list[str] | None) -> argparse.Namespace:
     parser.add_argument("-h", "--help", action="store_true")
     parser.add_argument("-d", "-D", dest="details", action="store_true")
     parser.add_argument("--fast", action="store_true")
-    parser.add_argument("--frames", type=int, default=MAX_FRAMES)
+    parser.add_argument("--frames", type=int)
     options, others = parser.parse_known_intermixed_args(argv)
     commands, numbers, changes = [], [], {}
     for word in [*options.words, *others]:
@@ -1165,8 +1168,10 @@ def wanted(argv: list[str] | None) -> argparse.Namespace:
             raise ValueError(unknown(word))
     if len(commands) > 1 or len(numbers) > 1:
         raise ValueError(f"one command and one EXAMPLE at a time, not {commands + numbers}")
-    if commands and (options.details or options.fast or options.frames != MAX_FRAMES):
+    if commands and (options.details or options.fast or options.frames is not None):
         raise ValueError(f"d, --fast and --frames are for a film, not for {commands[0]}")
+    if options.frames is None:
+        options.frames = 50_000
     if options.frames < 1:
         raise ValueError(f"--frames N must be a whole number from 1 up, not {options.frames}")
     options.command = commands[0] if commands else "film"

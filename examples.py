@@ -463,8 +463,8 @@ class Keys:
     def wait_until(self, moment_s: float, frame: int, t_s: float) -> bool:
         """Wait for a moment of time.perf_counter(), and while the film is paused.
 
-        frame and t_s say how far the film is. Returns whether the wait was an ordinary one: False
-        if the film was paused, or is to end.
+        frame and t_s say how far the film is. Returns whether it was that moment which ended the
+        wait, and not a key.
         """
         sys.stdout.flush()
         self.look()
@@ -505,7 +505,7 @@ class NoKeys:
         """Leave no time to read."""
 
     def wait_until(self, moment_s: float, frame: int, t_s: float) -> bool:
-        """Do not wait. Returns False: the clock says nothing about this film."""
+        """Do not wait. Returns False, as it was not that moment which ended the wait."""
         return False
 
     def press(self, key: str) -> None:

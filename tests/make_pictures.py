@@ -1,62 +1,86 @@
-"""Makes the README's moving pictures from the program's own output: python tests/make_pictures.py
+"""Makes the pages' pictures, and a chart of any scene. Needs matplotlib, of the test extra.
 
-Each is a full terminal in which a film scrolls, as an animated GIF in .github/. Needs matplotlib
-(of the test extra), for its Pillow and its monospaced font.
+    python tests/make_pictures.py                                        those in .github/
+    python tests/make_pictures.py chart [EXAMPLE] [NAME=VALUE ...] FILE  a .png, .svg or .pdf
+
+The moving picture is a terminal in which a film scrolls. The picture of the window is a screenshot,
+taken by hand.
 """
 
 import subprocess
 import sys
+import textwrap
 from pathlib import Path
 
+from matplotlib.figure import Figure
 from matplotlib.font_manager import findfont
 from PIL import Image, ImageDraw, ImageFont
 
 HERE = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(HERE))
 
-from airtrack import INKS  # noqa: E402
+from airtrack import METHODS, measure, scene_wanted, start_text, title_of, wanted  # noqa: E402
 
-COLUMNS = 88  # what a README's width has room for
-COMMANDS = {number: f"python airtrack.py {number} m_to_px=36 width_px={COLUMNS}"
-            for number in (16, 21)}
-FRAMES, ROWS, LINE_PX, LETTER_PX, EDGE_PX = 120, 18, 20, 10, 8
+COLUMNS, FRAMES, ROWS = 88, 120, 18  # as wide as a page has room for
+COMMAND = f"python airtrack.py 17 m_to_px=36 width_px={COLUMNS}"
+LINE_PX, LETTER_PX, EDGE_PX = 20, 10, 8
 PAPER, GREY = (24, 24, 27), (190, 190, 196)
-SHADES = {31: (248, 113, 113), 32: (74, 222, 128), 33: (250, 204, 21), 34: (96, 165, 250),
-          35: (216, 140, 255), 36: (34, 211, 238)}  # as a dark terminal shows these colours
-INK = {mark: SHADES[ink] for marks, (ink, _) in INKS.items() for mark in marks}
-FONT = ImageFont.truetype(findfont("DejaVu Sans Mono:bold"), 16)
+INK = {"0": (248, 113, 113), "o": (74, 222, 128), "*": (250, 204, 21)}
 
 
-def film(command: str) -> list[str]:
-    """Its frames."""
-    words = [*command.split(), "--fast", "--frames", str(FRAMES)]
-    out = subprocess.run([sys.executable, *words[1:]], text=True, check=True, cwd=HERE,
-                         capture_output=True).stdout
-    return out.partition("\n\n")[2].splitlines()[:FRAMES]
-
-
-def screen(command: str, lines: list[str]) -> Image.Image:
+def screen(lines: list[str]) -> Image.Image:
     """The terminal when the last of the lines after the command has just been printed."""
     size = COLUMNS * LETTER_PX + 2 * EDGE_PX, ROWS * LINE_PX + 2 * EDGE_PX
     picture = Image.new("RGB", size, PAPER)
     draw = ImageDraw.Draw(picture)
     draw.fontmode = "1"  # no shades between ink and paper: few colours, and each frame the same
-    for row, line in enumerate([f"$ {command}", "", *lines][-ROWS:]):
+    font = ImageFont.truetype(findfont("DejaVu Sans Mono:bold"), 16)
+    for row, line in enumerate([f"$ {COMMAND}", "", *lines][-ROWS:]):
         for column, letter in enumerate(line):
             colour = GREY if line.startswith("$") else INK.get(letter, GREY)
-            draw.text((EDGE_PX + column * LETTER_PX, EDGE_PX + row * LINE_PX), letter, colour, FONT)
+            draw.text((EDGE_PX + column * LETTER_PX, EDGE_PX + row * LINE_PX), letter, colour, font)
     return picture
 
 
-def main() -> None:
-    for number, command in COMMANDS.items():
-        lines = film(command)
-        frames = [screen(command, lines[:n]).quantize(9) for n in range(ROWS - 2, FRAMES + 1)]
-        file = HERE / ".github" / f"example-{number}.gif"
-        frames[0].save(file, save_all=True, append_images=frames[1:], loop=0,
-                       duration=[100] * (len(frames) - 1) + [2000], optimize=False)
-        print(f"{file.relative_to(HERE)}: {len(frames)} frames, {file.stat().st_size // 1000} kB")
+def moving_picture(file: Path) -> None:
+    words = [*COMMAND.split()[1:], "--fast", "--frames", str(FRAMES)]
+    out = subprocess.run([sys.executable, *words], text=True, check=True, cwd=HERE,
+                         capture_output=True).stdout
+    lines = out.partition("\n\n")[2].splitlines()[:FRAMES]
+    frames = [screen(lines[:n]).quantize(9) for n in range(ROWS - 2, FRAMES + 1)]
+    frames[0].save(file, save_all=True, append_images=frames[1:], loop=0,
+                   duration=[100] * (len(frames) - 1) + [2000], optimize=False)
+
+
+def chart(words: list[str], file: str) -> Figure:
+    """Measure as the program's chart does, and draw the points on two logarithmic scales."""
+    options = wanted(["chart", *words])
+    scene = scene_wanted(options)
+    figure = Figure(figsize=(8, 6), dpi=150, layout="constrained")
+    heading = f"{title_of(options.number, options.changes)}. {start_text(scene)}"
+    figure.suptitle(f"Speed against accuracy\n{textwrap.fill(heading, 110)}", fontsize=9)
+    axes = figure.add_subplot(
+        xscale="log", yscale="log", xlabel="largest error in ten runs (m): better to the left",
+        ylabel="processor time for a simulated second (\N{MICRO SIGN}s): better upwards")
+    axes.invert_yaxis()
+    for (letter, series), marker in zip(measure(scene).items(), "oxD+v", strict=True):
+        errors_m = [max(point.error_m, 1e-16) for point in series]  # 0 has no logarithm
+        costs_us = [point.cost_us for point in series]
+        label = f"{letter}: {' + '.join(METHODS[letter])}"
+        axes.plot(errors_m, costs_us, f"{marker}-", label=label)
+    axes.axvline(1 / scene.m_to_px, color="black", linestyle="--", label="one drawn pixel")
+    figure.legend(loc="outside lower center", ncols=3)
+    figure.savefig(file)
+    return figure
+
+
+def main(words: list[str]) -> None:
+    if words:
+        chart(words[1:-1], words[-1])
+        return
+    moving_picture(HERE / ".github/example-17.gif")
+    chart([], str(HERE / ".github/chart.png"))
 
 
 if __name__ == "__main__":
-    main()
+    main(sys.argv[1:])

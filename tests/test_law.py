@@ -108,7 +108,7 @@ def test_the_first_hops_of_example_20_have_the_figures_of_the_listing() -> None:
     assert (round(first.k, 9), round(second.k, 9)) == (0.8, 0.16)
     for told in ("has 14 lines, a drop of 11.2 cm and a way of 14 cm, so k is 0.8",
                  "a drop of 1.92 cm and a way of 12 cm, so k' is 0.16",
-                 "0.8 (14 + 0.8) + 0.16 is 12.0 lines"):
+                 "0.8 (14 + 0.8) + 0.16 = 12.0 lines"):
         assert told in LAW
     assert pytest.approx((11.2, 1.92)) == (0.8 * 14, 0.16 * 12)
     assert pytest.approx(12.0) == 0.8 * (14 + 0.8) + 0.16

@@ -178,7 +178,7 @@ def test_the_three_lines_of_example_3_are_the_program_s() -> None:
 
 
 def test_the_drawn_hop_is_what_the_program_draws(capsys: pytest.CaptureFixture[str]) -> None:
-    words, = re.findall(r"#     99 d (.*)", LISTING)
+    words, = re.findall(r"in the same line,\n#     (.*)", LISTING)
     lines = film(capsys, "99", "d", *words.split(), "--frames", "18").lines[8:]
     drawn = re.findall("#     ([0-9]): {3}(.{27}) *v = (.{5})", LISTING)
     assert len(drawn) == 10

@@ -2,7 +2,6 @@
 
 import io
 import re
-from collections import deque
 from collections.abc import Callable
 from contextlib import nullcontext
 from itertools import pairwise
@@ -10,7 +9,7 @@ from itertools import pairwise
 import pytest
 
 import examples
-from airtrack import PYTHON, Scene, is_at_rest, main, planned_length
+from airtrack import PYTHON, Rest, Scene, main, planned_length
 from clock import Clock, positions_m
 from examples import EXAMPLES, OWN_SCENE
 
@@ -164,8 +163,8 @@ def test_at_rest_is_a_third_of_a_second_within_a_millimetre_of_a_wall(
 @pytest.mark.parametrize(("off_mm", "rests"), [
     ((0,) * 9 + (9,), True), ((9,) + (0,) * 9, True), ((5, -5) * 5, False)])
 def test_the_mean_of_the_distances_decides_on_rest(off_mm: tuple[int, ...], rests: bool) -> None:
-    last_m = deque((0.25 + mm / 1000 for mm in off_mm), maxlen=10)
-    assert is_at_rest(Scene(a_mps2=-2), 0.0, last_m) is rests
+    rest = Rest(Scene(a_mps2=-2))
+    assert [rest.is_reached(0.25 + mm / 1000, 0.0) for mm in off_mm] == [False] * 9 + [rests]
 
 
 @pytest.mark.parametrize("fps", [30, 240, 1000])
