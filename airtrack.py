@@ -387,7 +387,7 @@ def planned_length(scene: Scene, frame: int) -> float:
     from_minus_1_to_1 = 2 * from_0_to_1 - 1
     return (1 + scene.jitter * from_minus_1_to_1) / scene.fps_target
 
-STALL_S = 0.15  # people notice a delay of about 0.1 s. A longer one is a stall.
+STALL_S = 0.15  # a delay that everybody sees: people begin to notice one at about 0.1 s
 
 class Pace:
     """The pace of a film: when is the next frame due, and how long did it take to come?"""
@@ -401,9 +401,9 @@ class Pace:
     def wait(self, frames: int, t_s: float) -> tuple[float, float]:
         """Wait until the next frame is due. frames and t_s say how far the film is.
 
-        Returns how long the film has waited since the frame before, in s, and the frame rate. The
-        frames are due at planned moments. If each frame slept for dt instead, it would last longer
-        than dt, because computing and printing take time, too.
+        Returns how long the last frame lasted, in s, and the frame rate. The frames are due at
+        planned moments. If each frame slept for dt instead, it would last longer than dt, because
+        computing and printing take time, too.
         """
         planned_s = planned_length(self.scene, frames + 1)
         self.due_s += planned_s
@@ -443,9 +443,9 @@ REST_M = 0.001  # 1 mm: less than a column, even in example 22
 class Rest:
     """Is the car at rest at a wall? Its last frames decide.
 
-    These last 1/3 s, which is enough to see that the car does not move. At a low rate 1/3 s is only
-    a few frames, and a car that reverses at the top of a hop may be as slow for so long. So they
-    are at least ten frames.
+    They last 1/3 s, which is enough to see that the car does not move. But at a low rate 1/3 s is
+    only a few frames, and for so long a car in flight may be near a wall, too. So they are never
+    fewer than ten.
     """
 
     def __init__(self, scene: Scene) -> None:
@@ -605,8 +605,8 @@ def replay(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> tuple[float, 
 # There is no code here. Every line can be checked with pen and paper.
 #
 # A car hops on the wall to which it is accelerated. Think of this wall as a floor: up is away from
-# it, and g is the size of a. All frames are equally long. Count each hop in lines of the film: from
-# a line in which a collision is found to the next such line.
+# it, and g is the size of a. The car does not meet the other wall, and all frames last dt. Count
+# each hop in lines of the film: from a line in which a collision is found to the next such line.
 #
 #     hop     how many lines the hop has.
 #     u       the first speed of the hop, upwards. The car has it where the correction put it (*).
@@ -646,11 +646,10 @@ def replay(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> tuple[float, 
 #     rebound the u of the next hop is CR w. The next hop has a k of its own: call it k'. So
 #     (next - k') g dt/2 is CR (hop + k) g dt/2, and
 #         next = CR (hop + k) + k'                        in the drawn hop: 0.8 (9 + 1) + 1 = 9
-# This is the law. No step was approximate. So with none, surface and rebound it holds in every hop
-# that does not meet the ceiling. Here is another hop: example 20 is exact + rebound, too. Its first
-# hop has 14 lines, a drop of 11.2 cm and a way of 14 cm, so k is 0.8. Its second hop has a drop of
-# 1.92 cm and a way of 12 cm, so k' is 0.16. The law says 0.8 (14 + 0.8) + 0.16 = 12.0 lines for the
-# second hop, and it has 12.
+# This is the law. No step was approximate. So with none, surface and rebound it holds in every hop.
+# Here is another hop. Example 20 is exact + rebound, too. Its first hop has 14 lines, a drop of
+# 11.2 cm and a way of 14 cm, so k is 0.8. Its second hop has a drop of 1.92 cm and a way of 12 cm,
+# so k' is 0.16. The law says 0.8 (14 + 0.8) + 0.16 = 12.0 lines for the second hop, and it has 12.
 #
 # But who wants to foretell a hop does not know its drop. What is its average? A collision is found
 # at the end of a frame. On average the car met the floor half a frame before, so a hop ends w dt/2
@@ -659,38 +658,39 @@ def replay(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> tuple[float, 
 #     rebound    The hop before ended below the floor, by half a frame of its own w. This hop begins
 #                CR times as far above the floor, and its u is CR times that w. So it begins u dt/2
 #                above the floor. The drop is u dt/2 + w dt/2 on average, which is one way.
-#     none       At CR = 1 the hop begins as deep as the hop before ended. So the drop is 0 on
-#     average. conserve   This correction takes from v what the lift costs. Look at the speeds that
-#     the car has
-#                when it leaves the floor and when it is back. Between these moments there is no
-#                drop.
+#     none       At CR = 1 the hop begins as deep as the hop before ended. So the drop is 0, on
+#                average.
+#     conserve   This correction takes from v what the lift costs. Look at the speeds that the car
+#                has when it leaves the floor and when it is back. Between these two moments there
+#                is no drop.
 # Rewind and replay have no k: if they are right, so are their hops. So the average k is
 #                   none at CR = 1   surface   rebound   conserve
 #     forward              1          1 1/2       2          1
 #     exact                0            1/2       1          0
 #     backward            -1           -1/2       0         -1
 #
-# What does it mean? (If nothing else is said, all this is an average: the start decides how late
-# each collision is found.)
+# What does it mean? All this is an average, as the start decides how late each collision is found.
 #     k > 0    The car gets too much energy. At CR = 1 it hops higher and higher: each hop is 2 k
-#              lines longer than the hop before. At CR < 1 its hops should die out, but there is a
+#              lines longer than the hop before. At CR < 1 its hops should die out. But there is a
 #              length for which the law says next = hop: k (1 + CR)/(1 - CR). If that is two lines
-#              or more, they end near it. (Hops of one line are rest.)
+#              or more, the hops end near it. (Hops of one line are rest.)
 #     k < 0    The car gets too little energy. At CR = 1 it should hop for ever, and comes to rest.
 #     k = 0    The energy is right.
 # For example, with exact + surface at CR = 1 a hop of 60 lines is followed by 61, then by 62 lines.
 # With exact + rebound at CR = 0.8 hops end near 1 * 1.8/0.2 = 9 lines.
 #
-# Three remarks, without proof. A hop that repeats for ever has the same drop each time, and this
-# may be another drop than the average one. Then k is hop (1 - CR)/(1 + CR), which is at most 1 with
-# exact + surface and backward + rebound, and below 2 with exact + rebound. So backward + rebound,
-# too, may hop for ever, in short hops. A ball that is dropped from rest may be back on the floor
-# exactly at the end of a frame, and round-off may find each collision a whole frame late. Then with
-# surface at CR = 1 the drop is one way: backward + surface has k = 0 and repeats one hop for ever,
-# and forward + surface has k = 2. Many programs set a small speed to 0, so that things lie still.
-# By (2), a hop that repeats ends with w = k g dt/(1 - CR), and with forward + surface k is at most
-# 2. So with this method it is enough to set v to 0 in a bounce with a w of at most 2 g dt/(1 - CR).
-# Do not do it at CR = 1.
+# Three remarks for the curious.
+# - A hop that repeats for ever has the same drop each time, and this may be another drop than the
+#   average one. By (3), its k is hop (1 - CR)/(1 + CR). How large may k be? Before its last move
+#   the car was not below the floor. So its last 0 is at most one move deep. That makes k at most 1
+#   with exact + surface and backward + rebound, and less than 2 with exact + rebound. So backward +
+#   rebound may hop for ever, too.
+# - A ball that is dropped from rest may be back on the floor exactly at the end of a frame, and
+#   round-off may find each collision a whole frame late. Then with surface at CR = 1 the drop is
+#   one way: backward + surface has k = 0 and repeats one hop for ever. Forward + surface has k = 2.
+# - Many programs set a small speed to 0, so that things lie still. By (2), a hop that repeats ends
+#   with w = k g dt/(1 - CR), and with forward + surface k is at most 2. So with this method it is
+#   enough to set v to 0 in a bounce with a w of at most 2 g dt/(1 - CR). Do not do it at CR = 1.
 
 # ==== 9. The chart: speed against accuracy ======================================================
 # What does each method cost, and how wrong is it?
@@ -984,11 +984,12 @@ def fitted(scene: Scene, has_details: bool) -> Scene:
     return replace(scene, width_px=columns, m_to_px=max(m_to_px, 0.001))
 
 def hops_text(collisions: list[int]) -> str:
-    """The lines from collision to collision: the first four and the last two, if there are more."""
+    """How long the hops of the * were: the first four and the last two, if there are more."""
     hops = [str(after - before) for before, after in pairwise(collisions)]
     if len(hops) > 6:
         hops = [*hops[:4], "...", *hops[-2:]]
-    return f"Lines from collision to collision: {' '.join(hops)}."
+    hops_in_words = " ".join(hops)
+    return f"The hops of the *, in lines from collision to collision: {hops_in_words}."
 
 def advice(scene: Scene, shown: Shown) -> str:
     """What may be said of a scene of the user's own, after its film."""
@@ -1115,10 +1116,11 @@ for each in SETTINGS.values():
 def unknown(word: str) -> str:
     """The error text for a word that means nothing, with the names that may have been meant."""
     start = word.partition("=")[0].lower()
-    near = []
-    for name, description in NAMES.items():
-        if start in re.findall("[a-z0-9]+", f"{name} {description}".lower()):
-            near.append(name)
+    near = [name for name in NAMES if start in name.lower().split("_")]
+    if len(start) > 1 or not near:  # "a" is a word in many descriptions
+        for name, description in NAMES.items():
+            if name not in near and start in re.findall("[a-z]+", description.lower()):
+                near.append(name)
     if not near:
         near = difflib.get_close_matches(start, NAMES, n=1)
     if re.fullmatch("[0-9]+d", start):

@@ -323,9 +323,9 @@ def test_after_every_film_its_hops_are_told_in_one_line(play: Play) -> None:
                         ("20 --frames 99", "14 12 10 9 ... 9 9"), ("19", "15 14 13 12 ... 1 1"),
                         ("20 motion=backward correction=none --frames 99", "10 6 1 1 ... 1 1"),
                         ("99 x_m=0.25 a_mps2=-2 correction=surface", "1 1 1 1 ... 1 1")):
-        assert re.findall("Lines from collision to collision: (.*)\\.\n", play(words)) == [told]
-    assert "Lines from" not in play("8 --frames 45")  # one hop
-    assert "Lines from" not in play("20 --fast --frames 80")
+        assert re.findall("lines from collision to collision: (.*)\\.\n", play(words)) == [told]
+    assert "lines from" not in play("8 --frames 45")  # one hop
+    assert "lines from" not in play("20 --fast --frames 80")
 
 
 @pytest.mark.parametrize(("words", "is_changed"), [
