@@ -115,7 +115,7 @@ WRONG = {  # a command line that is refused: what is said of it
     "stability 10 x_m=9999": "x_m must be a number from -1000 to 1000 m, not 9999.0",
 }
 MEANT = {  # a word that is none: what was meant
-    "fps=10": "fps_target", "dt=0.1": "fps_target or use_observed_dt",
+    "fps=10": "fps_target", "dt=0.1": "use_observed_dt or fps_target",
     "g=9.8": "a_mps2", "gravity=9.8": "a_mps2", "zoom=20": "m_to_px",
     "cr=0.5": "CR", "v=3": "v_mps", "a=2": "a_mps2", "x=1": "x_m", "jiter=0.1": "jitter",
     "restitution=1": "CR", "fps_taget=10": "fps_target", "chrat": "chart",

@@ -181,7 +181,7 @@ def test_pixels_and_frames() -> None:
     metres = 0.01 * (v_px * 30 + g_px * 30**2 / 2)  # after 30 frames, 1 px is 1 cm
     seconds, v_mps, g_mps2 = 30 / fps, v_px * fps / 100, g_px * fps**2 / 100
     assert metres == pytest.approx(v_mps * seconds + g_mps2 * seconds**2 / 2)
-    says("README", "v \u00b7 FPS/100 m/s, and g px a frame\u00b2 are g \u00b7 FPS\u00b2/100 m/s\u00b2")
+    says("README", "v \u00b7 FPS/100 m/s, and g px a frame\u00b2 are g \u00b7 FPS\u00b2/100 m/s")
 
 
 # The methods, how good they are, and the law.
