@@ -16,7 +16,7 @@ So its film is a graph: position to the right, time downwards.
 
 README.md says what this is good for. .github/lesson.md is a lesson for a class.
 """
-# What is for whom?
+# What is where?
 #     Sections 1, 2 and 4    the physics: how a car moves and bounces, one frame at a time.
 #     Sections 3, 5 and 6    the film: what a run starts from, how a frame is drawn, the main loop.
 #     Sections 7 and 8       the truth, and a law that says what a bouncing car will do.
@@ -411,13 +411,14 @@ class Pace:
         now_s = time.perf_counter()
         lasted_s = now_s - self.shown_s
         self.shown_s = now_s
-        # After a pause or a stall the plan begins anew from now. Otherwise the film would race to
-        # catch up.
-        if not is_on_time or now_s > self.due_s + STALL_S:
+        if not is_on_time:
+            self.due_s = now_s
+            return planned_s, self.scene.fps_target
+        # If the film is far behind its plan, the plan begins anew from now. Otherwise the film
+        # would race to catch up.
+        if now_s > self.due_s + STALL_S:
             self.due_s = now_s
         # A frame that lasted far too long counts as long as planned. Otherwise the car would leap.
-        if not is_on_time:
-            return planned_s, self.scene.fps_target
         fps = 1 / max(lasted_s, 1e-6)  # the clock may not have ticked in between
         if lasted_s > planned_s + STALL_S:
             return planned_s, fps
@@ -455,7 +456,7 @@ class Rest:
         # In these frames a makes a car so fast:
         self.slow_mps = abs(scene.a_mps2) * self.frames / scene.fps_target
 
-    def wall_m(self, x_m: float) -> float:
+    def resting_place(self, x_m: float) -> float:
         """The wall at which the car can rest: the one that a points to, or the nearer one."""
         left_m, right_m = self.scene.left_edge_m, self.scene.right_edge_m
         is_right_nearer = x_m - left_m > right_m - x_m
@@ -470,7 +471,7 @@ class Rest:
         the wall is small, and that it is no faster than a would make it in these frames.
         """
         self.last_m.append(x_m)
-        wall_m = self.wall_m(x_m)
+        wall_m = self.resting_place(x_m)
         if len(self.last_m) < self.frames or abs(v_mps) > self.slow_mps:
             return False
         if abs(x_m - wall_m) > REST_M * self.frames:
@@ -651,31 +652,33 @@ def replay(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> tuple[float, 
 # 11.2 cm and a way of 14 cm, so k is 0.8. Its second hop has a drop of 1.92 cm and a way of 12 cm,
 # so k' is 0.16. The law says 0.8 (14 + 0.8) + 0.16 = 12.0 lines for the second hop, and it has 12.
 #
-# But who wants to foretell a hop does not know its drop. What is its average? A collision is found
+# We can only foretell a hop if we know its drop. What is the average drop? A collision is found
 # at the end of a frame. On average the car met the floor half a frame before, so a hop ends w dt/2
 # below the floor. By (1), way is (u + w) dt/2. Let the hop be long, so that u and w differ little.
 #     surface    The hop begins on the floor. So the drop is w dt/2 on average, which is half a way.
-#     rebound    The hop before ended below the floor, by half a frame of its own w. This hop begins
-#                CR times as far above the floor, and its u is CR times that w. So it begins u dt/2
-#                above the floor. The drop is u dt/2 + w dt/2 on average, which is one way.
+#     rebound    Let W be the w of the hop before. That hop ended W dt/2 below the floor. So this
+#                hop begins CR W dt/2 above the floor. As CR W is u, this is u dt/2. So the drop is
+#                u dt/2 + w dt/2 on average, which is one way.
 #     none       At CR = 1 the hop begins as deep as the hop before ended. So the drop is 0, on
 #                average.
-#     conserve   This correction takes from v what the lift costs. Look at the speeds that the car
-#                has when it leaves the floor and when it is back. Between these two moments there
-#                is no drop.
+#     conserve   Here the next u is not CR w, because this correction also takes from v what the
+#                lift costs. But it is so for the speeds at the floor. So let u and w be the speeds
+#                when the car leaves the floor and when it is back. Between these two moments there
+#                is no drop, and on average they are hop frames apart.
 # Rewind and replay have no k: if they are right, so are their hops. So the average k is
-#                   none at CR = 1   surface   rebound   conserve
+#                   none at CR = 1   surface   rebound   conserve (at the floor)
 #     forward              1          1 1/2       2          1
 #     exact                0            1/2       1          0
 #     backward            -1           -1/2       0         -1
 #
-# What does it mean? All this is an average, as the start decides how late each collision is found.
+# What does it mean? All this is an average: the start decides how late each collision is found.
 #     k > 0    The car gets too much energy. At CR = 1 it hops higher and higher: each hop is 2 k
 #              lines longer than the hop before. At CR < 1 its hops should die out. But there is a
 #              length for which the law says next = hop: k (1 + CR)/(1 - CR). If that is two lines
 #              or more, the hops end near it. (Hops of one line are rest.)
-#     k < 0    The car gets too little energy. At CR = 1 it should hop for ever, and comes to rest.
-#     k = 0    The energy is right.
+#     k < 0    The car gets too little energy. At CR = 1 it should hop for ever, but it comes to
+#              rest (with none it is caught).
+#     k = 0    The energy is right on average.
 # For example, with exact + surface at CR = 1 a hop of 60 lines is followed by 61, then by 62 lines.
 # With exact + rebound at CR = 0.8 hops end near 1 * 1.8/0.2 = 9 lines.
 #

@@ -11,7 +11,7 @@ import pytest
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
-from airtrack import CORRECTIONS, MOTIONS, Scene, render_track, step
+from airtrack import CORRECTIONS, MOTIONS, Scene, arrival, render_track, step
 from examples import EXAMPLES
 from films import HERE, film
 
@@ -135,6 +135,13 @@ def test_rewind_leaves_a_car_at_rest_on_its_wall_whatever_round_off_says_of_its_
     for tenths in range(1, 100):
         scene = Scene(motion="exact", correction="rewind", x_m=0.25, a_mps2=-tenths / 10)
         assert step(scene, 0.25, 0.0, 1 / 30)[0] == pytest.approx(0.25, abs=1e-12)
+
+
+def test_a_car_that_round_off_keeps_from_the_wall_arrives_there_at_no_speed() -> None:
+    for side_of_zero in (-2 * (1 - 4e-16), -2.0, -2 * (1 + 4e-16)):  # w^2 = 4 - 4 (1 +- 4e-16)
+        t_s, w_mps = arrival(1.0, 2.0, side_of_zero)
+        assert (t_s, w_mps) == pytest.approx((1.0, 0.0), abs=5e-8)
+    assert w_mps == 0
 
 
 # The listing's drawings and worked numbers.
