@@ -203,7 +203,7 @@ def rewind(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) ->
     # Run it forwards again, from the surface, after the bounce, for the same time.
     new_depth_m, new_inward_mps = exact(0.0, -CR * met_mps, inward_mps2, late_s)  # -0.048, -1.33
     if new_depth_m > 0:
-        new_depth_m = 0.0  # it is in the wall again, as there was a second bounce
+        new_depth_m = 0.0  # it is in the wall again, by a second bounce: put it on the wall
     return wall_m + side * new_depth_m, side * new_inward_mps
 
 CORRECTIONS = {"none": none, "surface": surface, "rebound": rebound, "conserve": conserve,
@@ -452,8 +452,8 @@ class Rest:
     def __init__(self, scene: Scene) -> None:
         self.scene = scene
         self.frames = max(10, round(scene.fps_target / 3))
-        self.last_m = deque[float](maxlen=self.frames)  # it forgets the oldest position by itself
-        # In these frames a makes a car so fast:
+        self.last_m: deque[float] = deque(maxlen=self.frames)  # it forgets the oldest by itself
+        # How fast the acceleration makes a car in these frames:
         self.slow_mps = abs(scene.a_mps2) * self.frames / scene.fps_target
 
     def resting_place(self, x_m: float) -> float:
@@ -465,7 +465,7 @@ class Rest:
         return left_m
 
     def is_reached(self, x_m: float, v_mps: float) -> bool:
-        """Whether the car is at rest, if this is its state after the next frame.
+        """Whether the car is at rest. x_m and v_mps are its state after the newest frame.
 
         Some methods never leave the car quite still. So it is enough that its mean distance from
         the wall is small, and that it is no faster than a would make it in these frames.
