@@ -450,14 +450,14 @@ class Keys:
         ends_s = time.perf_counter() + READING_S
         if not self.has_keys:
             ends_s = time.perf_counter() + READING_WITHOUT_KEYS_S
-        while not self.has_begun and not self.why_quit and self.steps == 0:
-            try:
+        try:
+            while not self.has_begun and not self.why_quit and self.steps == 0:
                 self.look()
                 if time.perf_counter() >= ends_s and not self.is_paused:
                     break
                 time.sleep(LOOK_S)
-            except KeyboardInterrupt:
-                self.press(CTRL_C)
+        except KeyboardInterrupt:
+            self.press(CTRL_C)
         self.has_begun = True
 
     def wait_until(self, moment_s: float, frame: int, t_s: float) -> bool:

@@ -93,8 +93,8 @@ WRONG = {  # a command line that is refused: what is said of it
     "m_to_px=1=2": "m_to_px must be a number from 0.001 to 1000 px/m, not 1=2",
     "width_px=99.5": "width_px must be a whole number from 10 to 1000 px, not 99.5",
     "auto_off=no": "auto_off must be False or True, not no",
-    "motion=euler": "motion must be forward or backward or exact, not euler: did you mean forward "
-                    "or backward?",
+    "motion=euler": f"motion must be {' or '.join(MOTIONS)}, not euler: did you mean forward or "
+                    "backward?",
     "10 correction=exact": "correction must be none or surface or rebound or conserve or rewind or "
                            "replay, not exact: did you mean rewind or replay?",
     "10 left_edge_m=3": "right_edge_m must be at least 0.01 m to the right of left_edge_m, not 2.2 "
@@ -111,7 +111,7 @@ WRONG = {  # a command line that is refused: what is said of it
     "--frames -5": "--frames N must be a whole number from 1 up, not -5",
     "--frames x": "argument --frames: invalid int value: 'x'",
     "--frames": "argument --frames: expected one argument",
-    "chart motion=exakt": "motion must be forward or backward or exact, not exakt",
+    "chart motion=exakt": f"motion must be {' or '.join(MOTIONS)}, not exakt",
     "stability 10 x_m=9999": "x_m must be a number from -1000 to 1000 m, not 9999.0",
 }
 MEANT = {  # a word that is none: what was meant
