@@ -197,8 +197,9 @@ def rewind(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) ->
     depth_m = side * (x_m - wall_m)  # 0.08 m
     inward_mps = side * v_mps  # 3.00 m/s
     inward_mps2 = side * a_mps2  # 20 m/s^2
-    # Run the film backwards: the car comes out of the wall as fast as it went in, and a, which
-    # still points into the wall, slows it. When is it at the surface of the wall, and how fast?
+    # Run the film backwards: the car comes out of the wall, at first with the speed inward_mps. In
+    # reversed time v changes its sign, but a does not. So a, which points into the wall, slows the
+    # car down. When is it at the surface of the wall, and how fast?
     late_s, met_mps = arrival(depth_m, inward_mps, -inward_mps2)  # 0.030 s, 2.41 m/s
     # Run it forwards again, from the surface, after the bounce, for the same time.
     new_depth_m, new_inward_mps = exact(0.0, -CR * met_mps, inward_mps2, late_s)  # -0.048, -1.33
@@ -1018,9 +1019,12 @@ def film(scene: Scene, options: argparse.Namespace) -> None:
         say(f"The picture is drawn {view.width_px} columns wide, to fit into the terminal.")
     taking = nullcontext(NoKeys()) if options.fast else taken_keys()
     with taking as keys:
-        for text in keys.texts_before(question):
-            say(text)
-        keys.leave_time()
+        try:
+            for text in keys.texts_before(question):
+                say(text)
+            keys.leave_time()
+        except KeyboardInterrupt:
+            keys.press(CTRL_C)  # it begins the film
         print()
         shown = run(view, has_details, options.frames, keys)
     if not options.fast and shown.frames > 0:

@@ -446,18 +446,15 @@ class Keys:
             self.steps += 1
 
     def leave_time(self) -> None:
-        """Leave time to read what stands before the film. Enter, s and Ctrl-C cut it short."""
+        """Leave time to read what stands before the film. Enter and s cut it short."""
         ends_s = time.perf_counter() + READING_S
         if not self.has_keys:
             ends_s = time.perf_counter() + READING_WITHOUT_KEYS_S
-        try:
-            while not self.has_begun and not self.why_quit and self.steps == 0:
-                self.look()
-                if time.perf_counter() >= ends_s and not self.is_paused:
-                    break
-                time.sleep(LOOK_S)
-        except KeyboardInterrupt:
-            self.press(CTRL_C)
+        while not self.has_begun and not self.why_quit and self.steps == 0:
+            self.look()
+            if time.perf_counter() >= ends_s and not self.is_paused:
+                break
+            time.sleep(LOOK_S)
         self.has_begun = True
 
     def wait_until(self, moment_s: float, frame: int, t_s: float) -> bool:
