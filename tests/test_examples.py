@@ -304,6 +304,48 @@ def test_22(capsys: Capture) -> None:
     says(22, "higher than {:.0f} cm, out of the picture", 100 * 135 / 500)
 
 
+def same_but(number: int, other: int) -> set[str]:
+    """The settings in which two examples differ."""
+    scene, another = (Scene(**EXAMPLES[each].settings) for each in (number, other))
+    return {name for name, value in vars(scene).items() if value != getattr(another, name)}
+
+
+@pytest.mark.parametrize(("number", "sentence", "other", "differs"), [
+    (6, "smaller than in example 5", 5, {"m_to_px"}),
+    (6, "as example 5 does", 5, {"m_to_px"}), (6, "the figures of example 5", 5, {"m_to_px"}),
+    (7, "In example 8 the same happens with larger steps", 8, {"fps_target"}),
+    (8, "Now example 7 at only 10 FPS", 7, {"fps_target"}),
+    (9, "Example 8 with irregular frames", 8, {"use_observed_dt", "jitter"}),
+    (10, "In example 8, at the same 10 FPS", 8, {"motion", "correction"}),
+    (11, "Example 10 with irregular frames", 10, {"use_observed_dt", "jitter"}),
+    (11, "every time, as in example 10", 10, {"use_observed_dt", "jitter"}),
+    (11, "holds two bounces, as in example 12", 12, {"CR"}), (12, "Example 11, but", 11, {"CR"}),
+    (15, "Example 14 with the exact solution", 14, {"motion", "correction"}),
+    (16, "The o is the true car, and the * is the car of example 8", 8, {"show_exact_mark"}),
+    (21, "The * is the car of example 10", 10, {"show_methods"})])
+def test_an_example_names_the_example_from_which_it_differs_in_this(
+        number: int, sentence: str, other: int, differs: set[str]) -> None:
+    says(number, sentence)
+    assert same_but(number, other) == differs
+
+
+def test_plain_numbers_in_the_texts() -> None:
+    for number, sentence in (
+            (0, "car be after 45 s"), (0, "Each of them took 20 % of its speed"),
+            (3, "kept only 60 % of its speed"), (4, "Each line is a 300th of a second"),
+            (5, "A 0 shows where the move alone put the car"), (5, "70 % as far from the wall"),
+            (6, "(30/55)"), (7, "the dot at 2 m"), (11, "misses a bounce, as in example 18"),
+            (13, "to v^2/2 + 2 x, the"), (19, "Here k is -1 + 1/2 = -1/2"),
+            (20, "Each bounce takes 20 % of the speed"), (20, "as in example 19"),
+            (20, "Here k is 0 + 1 = 1"), (20, "at 30 or 60 FPS"), (22, "by the law of example 19"),
+            (22, "k is 1 + 1/2 on average"), (22, "its k is -1/2"),
+            (10, "Only 10 FPS, but exact formulas")):
+        says(number, sentence)
+    scenes = {number: Scene(**each.settings) for number, each in EXAMPLES.items()}
+    assert (scenes[0].CR, scenes[3].CR, scenes[5].CR, scenes[20].CR) == (0.8, 0.6, 0.7, 0.8)
+    assert (scenes[4].fps_target, scenes[10].fps_target, scenes[7].x_m) == (300, 10, 2)
+
+
 def test_no_example_stands_on_a_knife_s_edge() -> None:
     """A start that differs by a hair makes the same film, but where round-off grows by bounces."""
     for number in range(13, 23):

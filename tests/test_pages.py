@@ -185,6 +185,54 @@ def test_pixels_and_frames() -> None:
     says("README", "v \u00b7 FPS/100 m/s, and g px a frame\u00b2 are g \u00b7 FPS\u00b2/100 m/s")
 
 
+SYMPTOMS = {  # what is seen: the examples that show it, as their titles and texts say
+    "bounces higher each time": "17, 13", "never lies still": "20, 22", "sticks in the wall": "3",
+    "goes through the wall": "14, 15, 18", "bounces differently": "8 beside 7",
+    "slow ball sticks": "19"}
+SENTENCES = [  # plain numbers and references, each with its page
+    ("README", "Example 13 asks:"), ("README", "let 1 px be 1 cm"),
+    ("README", "look for the floor, at y = 0"), ("README", "At rest v is not 0"),
+    ("README", "call `bounce` with gravity 0"), ("README", "A hop lower than 5e-11 m is rest"),
+    ("README", "1 for forward, 0 for exact and -1 for backward"),
+    ("README", "drop/way is 1/2 for surface, 1 for rebound and 0 for none (at CR = 1)"),
+    ("README", "from 10 FPS at its top to 3840 FPS at its end"),
+    ("README", "at CR < 1 | at CR = 1 |"), ("README", "is in section 8 of `airtrack.py`"),
+    ("README", "hops grow, by 2 k lines each on average"), ("README", "if this is well over two"),
+    ("README", "**k > 0**"), ("README", "**k < 0**: it gets too little. At CR = 1"),
+    ("README", "**k = 0**"), ("README", "so 0.64 of the energy: 1.86 of 2.90 J/kg"),
+    ("README", "a map of all 14"), ("README", "(Python 3.11, and 3.14 with pygame-ce)"),
+    ("README", "at most 1.7 times as much"), ("README", "frames of examples 9, 11 and 12"),
+    ("LESSON", "the worksheet below for 8"), ("LESSON", "The car of example 12 starts"),
+    ("LESSON", "1.75 m from the left wall, and a is -2"), ("LESSON", "This prints example 8"),
+    ("LESSON", "With CR = 1 it keeps all"), ("LESSON", "the first hop of example 20 has 11 lines"),
+    ("LESSON", "This is example 0 without"),
+    ("LESSON", "There 34 columns are 1 m and 10 lines are 1"), ("LESSON", "must have met 13"),
+    ("LESSON", "Here k is 1 + 1/2"),
+    ("LESSON", "A ball with CR = 0.9 whose first hop takes 0.63 s"),
+    ("LESSON", "heard a real one for 6.42 s"), ("LESSON", "The lesson: 40 minutes"),
+    ("LESSON", "0 to 10 | `python airtrack.py 1`"),
+    ("LESSON", "10 to 20 | `python airtrack.py 13`"),
+    ("LESSON", "20 to 30 | `python airtrack.py 8`"),
+    ("LESSON", "30 to 40 | `python airtrack.py 10`"), ("LESSON", "Press s fourteen times"),
+    ("LESSON", "keeps 0.7 of its speed"), ("LESSON", "(Many say 70 %"),
+    ("LESSON", "in the end by 1 mm"), ("LESSON", "T = \u221a(2 \u00b7 1.75/2) s = 1.323 s"),
+    ("LESSON", "The first hop takes 2 CR T")
+]
+
+
+@pytest.mark.parametrize(("page", "sentence"), SENTENCES)
+def test_plain_numbers_and_references_stand_in_their_sentences(page: str, sentence: str) -> None:
+    says(page, sentence)
+
+
+def test_each_symptom_names_the_examples_that_show_it() -> None:
+    rows = re.findall(r"(?m)^\| ([A-Z][^|]*) \| [^|]* \| [^|]* \| ([0-9][^|]*) \|$", README)
+    assert len(rows) == len(SYMPTOMS)
+    for (seen, told), (symptom, examples) in zip(rows, SYMPTOMS.items(), strict=True):
+        assert symptom in seen
+        assert told == examples
+
+
 # The methods, how good they are, and the law.
 
 def test_one_collision_is_drawn_by_all_six_corrections(capsys: Capture) -> None:
