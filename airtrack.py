@@ -510,6 +510,12 @@ def run(scene: Scene, has_details: bool, max_frames: int, keys: Keys | NoKeys) -
                 other_m, other_mps = others[mark]
                 other_m, other_mps, _ = step(other_scene, other_m, other_mps, dt_s)
                 others[mark] = other_m, other_mps
+            # Keep what is to be told when the film is over.
+            frame += 1
+            t_s += dt_s
+            if mark_m is not None:
+                collisions.append(frame)
+            is_resting = rest.is_reached(x_m, v_mps)
             # Draw the frame.
             line = render_track(scene, x_m, mark_m, others)
             if keys.has_colours:
@@ -517,12 +523,6 @@ def run(scene: Scene, has_details: bool, max_frames: int, keys: Keys | NoKeys) -
             if has_details:
                 line += details_text(x_m, v_mps, fps, others.get("o"))
             print(line)
-            # Keep what is to be told when the film is over.
-            frame += 1
-            t_s += dt_s
-            if mark_m is not None:
-                collisions.append(frame)
-            is_resting = rest.is_reached(x_m, v_mps)
     except KeyboardInterrupt:
         keys.press(CTRL_C)
     if keys.why_quit:

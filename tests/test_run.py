@@ -202,7 +202,7 @@ def test_ctrl_c_in_mid_frame_is_a_key_like_x(clock: Clock, play: Play) -> None:
 
     clock.when_drawn = interrupted
     out = play("10")
-    assert ending(out) == "Stopped after 5 frames, t = 0.50 s: Ctrl-C was pressed."
+    assert ending(out) == "Stopped after 6 frames, t = 0.60 s: Ctrl-C was pressed."
     assert plain(EXAMPLES[10].seen) in plain(out)
 
 
