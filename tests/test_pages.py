@@ -216,7 +216,20 @@ SENTENCES = [  # plain numbers and references, each with its page
     ("LESSON", "30 to 40 | `python airtrack.py 10`"), ("LESSON", "Press s fourteen times"),
     ("LESSON", "keeps 0.7 of its speed"), ("LESSON", "(Many say 70 %"),
     ("LESSON", "in the end by 1 mm"), ("LESSON", "T = \u221a(2 \u00b7 1.75/2) s = 1.323 s"),
-    ("LESSON", "The first hop takes 2 CR T")
+    ("LESSON", "The first hop takes 2 CR T"),
+    ("LESSON", "5 minutes: `python airtrack.py 3`"),
+    ("LESSON", "10 minutes: `python airtrack.py 21`"), ("LESSON", "leave out 13"),
+    ("LESSON", "the same for 10 with 54 frames"), ("LESSON", "about 100 of them fit side by side"),
+    ("LESSON", "from about 16 years on"),
+    ("LESSON", "bounces at `|`. It needs Python 3.11 or later"),
+    ("LESSON", "Let it run for ten seconds"), ("LESSON", "in a terminal of 150 columns"),
+    ("README", "You need Python 3.11 or later"),
+    ("README", "15 minutes of reading, 40 minutes in class"),
+    ("README", "At CR = 1 it should hop for ever, but as a rule"), ("README", "by 2 k lines each"),
+    ("README", "| begun with another line | at CR < 1 | at CR = 1 |"),
+    ("README", "Three of its rows, for example 10"), ("README", "the hops of example 19 (CR = 1)"),
+    ("README", "by nine methods, beside 2 k"), ("README", "dt is 0.1 s, the acceleration is -20"),
+    ("LESSON", "of fixed width, 10 points"),
 ]
 
 
