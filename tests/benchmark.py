@@ -1,4 +1,4 @@
-"""What a move costs beside its frame, as a ratio: python tests/benchmark.py
+"""What methods cost beside each other, and a move beside its frame: python tests/benchmark.py
 
 Not a test, which must not depend on a machine's speed. Costs are the least of several runs.
 """
@@ -7,12 +7,13 @@ import io
 import sys
 import time
 from contextlib import redirect_stdout
+from dataclasses import replace
 from pathlib import Path
 from timeit import repeat
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
-from airtrack import Scene, cost_us, run
+from airtrack import METHODS, Scene, cost_us, run
 from examples import EXAMPLES, NoKeys
 
 FRAMES = 20_000
@@ -28,6 +29,11 @@ def frame_us(scene: Scene) -> float:
 
 def main() -> None:
     ten = Scene(**EXAMPLES[10].settings)
+    for fps in (10, 120, 960):
+        costs_us = [cost_us(replace(ten, motion=motion, correction=correction), fps)
+                    for motion, correction in METHODS.values()]
+        ratio = max(costs_us) / min(costs_us)
+        print(f"example 10 at {fps} FPS: the dearest method costs {ratio:.2f} times the cheapest")
     print(f"example 10: the move takes {cost_us(ten, 10) / 10 / frame_us(ten):.0%} of a frame")
 
 

@@ -201,7 +201,7 @@ SENTENCES = [  # plain numbers and references, each with its page
     ("README", "**k > 0**"), ("README", "**k < 0**: it gets too little. At CR = 1"),
     ("README", "**k = 0**"), ("README", "so 0.64 of the energy: 1.86 of 2.90 J/kg"),
     ("README", "a map of all 14"), ("README", "(Python 3.11, and 3.14 with pygame-ce)"),
-    ("README", "at most 1.7 times as much"), ("README", "frames of examples 9, 11 and 12"),
+    ("README", "at most about 1.7 times as much"), ("README", "frames of examples 9, 11 and 12"),
     ("LESSON", "the worksheet below for 8"), ("LESSON", "The car of example 12 starts"),
     ("LESSON", "1.75 m from the left wall, and a is -2"), ("LESSON", "This prints example 8"),
     ("LESSON", "With CR = 1 it keeps all"), ("LESSON", "the first hop of example 20 has 11 lines"),
