@@ -451,19 +451,16 @@ class Rest:
     """
 
     def __init__(self, scene: Scene) -> None:
-        self.scene = scene
         self.frames = max(10, round(scene.fps_target / 3))
         self.last_m: deque[float] = deque(maxlen=self.frames)  # it forgets the oldest by itself
         # How fast the acceleration makes a car in these frames:
         self.slow_mps = abs(scene.a_mps2) * self.frames / scene.fps_target
-
-    def resting_place(self, x_m: float) -> float:
-        """The wall at which the car can rest: the one that a points to, or the nearer one."""
-        left_m, right_m = self.scene.left_edge_m, self.scene.right_edge_m
-        is_right_nearer = x_m - left_m > right_m - x_m
-        if self.scene.a_mps2 > 0 or (self.scene.a_mps2 == 0 and is_right_nearer):
-            return right_m
-        return left_m
+        # The car can rest at the wall to which it is accelerated or, without a, at any wall.
+        self.walls_m = []
+        if scene.a_mps2 <= 0:
+            self.walls_m.append(scene.left_edge_m)
+        if scene.a_mps2 >= 0:
+            self.walls_m.append(scene.right_edge_m)
 
     def is_reached(self, x_m: float, v_mps: float) -> bool:
         """Whether the car is at rest. x_m and v_mps are its state after the newest frame.
@@ -472,13 +469,15 @@ class Rest:
         the wall is small, and that it is no faster than a would make it in these frames.
         """
         self.last_m.append(x_m)
-        wall_m = self.resting_place(x_m)
         if len(self.last_m) < self.frames or abs(v_mps) > self.slow_mps:
             return False
-        if abs(x_m - wall_m) > REST_M * self.frames:
-            return False  # this distance alone makes the mean too large
-        distances_m = [abs(last_m - wall_m) for last_m in self.last_m]
-        return sum(distances_m) / self.frames <= REST_M
+        for wall_m in self.walls_m:
+            if abs(x_m - wall_m) > REST_M * self.frames:
+                continue  # this distance alone makes the mean too large
+            distances_m = [abs(last_m - wall_m) for last_m in self.last_m]
+            if sum(distances_m) / self.frames <= REST_M:
+                return True
+        return False
 
 class Shown(NamedTuple):
     """What a film has shown."""
