@@ -341,6 +341,7 @@ def test_plain_numbers_in_the_texts() -> None:
             (22, "k is 1 + 1/2 on average"), (22, "its k is -1/2"),
             (5, "Does every collision show a 0?"), (16, "Press x after 20 s"), (9, "after 30 s"),
             (17, "Press x after 20 s"), (20, "Press x after 10 s"), (21, "Press x after 20 s"),
+            (8, "then again only 1.88 m, and so on"),
             (20, "So after 9 lines come 0.8 (9 + 1) + 1 = 9"), (19, "With motion=exact k is 1/2"),
             (19, "down to 2 and 1, too low"), (7, "The 1.1 cm are less than a column"),
             (12, "keeps only 80 % of its speed"), (15, "In a frame of 4 m it goes"),

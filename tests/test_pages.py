@@ -190,6 +190,9 @@ SYMPTOMS = {  # what is seen: the examples that show it, as their titles and tex
     "goes through the wall": "14, 15, 18", "bounces differently": "8 beside 7",
     "slow ball sticks": "19"}
 SENTENCES = [  # plain numbers and references, each with its page
+    ("README", "They end near k (1 + CR)/(1 - CR) lines instead"),
+    ("README", "with forward + surface 2 g dt/(1 - CR) is enough"),
+    ("LESSON", "type `python3 airtrack.py 1`, on Windows `py airtrack.py 1`"),
     ("README", "Example 13 asks:"), ("README", "let 1 px be 1 cm"),
     ("README", "look for the floor, at y = 0"), ("README", "At rest v is not 0"),
     ("README", "call `bounce` with gravity 0"), ("README", "A hop lower than 5e-11 m is rest"),
