@@ -1002,7 +1002,7 @@ def advice(scene: Scene, shown: Shown) -> str:
         text += " " + OWN_SCENE.seen
     return text
 
-def film(scene: Scene, options: argparse.Namespace) -> None:
+def film(scene: Scene, title: str, options: argparse.Namespace) -> None:
     """Say what to look for, leave time to guess, show the film, and say what was to be seen."""
     number = options.number
     example = EXAMPLES.get(number, OWN_SCENE)
@@ -1011,7 +1011,7 @@ def film(scene: Scene, options: argparse.Namespace) -> None:
     if is_changed:
         question = f"What differs from example {number} as it is?"
     has_details = options.details or number == 0  # the first film should show what there is
-    say(title_of(number, options.changes))
+    say(title)
     say(scene_text(scene))
     view = fitted(scene, has_details)
     if view.width_px < scene.width_px:
@@ -1221,16 +1221,16 @@ def scene_wanted(options: argparse.Namespace) -> Scene:
 
 def obey(options: argparse.Namespace, scene: Scene) -> None:
     """Do what the user asks for."""
-    title = f"{title_of(options.number, options.changes)}. {start_text(scene)}"
+    title = title_of(options.number, options.changes)
     if options.help:
         print_manual()
     elif options.command == "chart":
-        chart(scene, title)
+        chart(scene, f"{title}. {start_text(scene)}")
         say(f"Next: {PYTHON} airtrack.py stability")
     elif options.command == "stability":
-        stability(scene, title)
+        stability(scene, f"{title}. {start_text(scene)}")
     else:
-        film(scene, options)
+        film(scene, title, options)
 
 def refuse(fault: Exception) -> int:
     """Print an error as one line. Returns the exit status for it."""

@@ -327,10 +327,10 @@ class Window:
 
     def __init__(self) -> None:
         self.why_shut = ""
-        if sys.platform == "linux" and "DISPLAY" not in os.environ:
-            self.why_shut = "there is no display"
-            return
         if sys.platform == "linux":
+            if "DISPLAY" not in os.environ:
+                self.why_shut = "there is no display"
+                return
             # SDL, on which pygame stands, would else open an invisible window on a dead display.
             os.environ.setdefault("SDL_VIDEODRIVER", "x11")
         os.environ["SDL_NO_SIGNAL_HANDLERS"] = "1"  # Ctrl-C and the like are for us
@@ -447,9 +447,8 @@ class Keys:
 
     def leave_time(self) -> None:
         """Leave time to read what stands before the film. Enter and s cut it short."""
-        ends_s = time.perf_counter() + READING_S
-        if not self.has_keys:
-            ends_s = time.perf_counter() + READING_WITHOUT_KEYS_S
+        reading_s = READING_S if self.has_keys else READING_WITHOUT_KEYS_S
+        ends_s = time.perf_counter() + reading_s
         while not self.has_begun and not self.why_quit and self.steps == 0:
             self.look()
             if time.perf_counter() >= ends_s and not self.is_paused:
