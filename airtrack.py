@@ -2,45 +2,59 @@
 """Air track: a car between two walls, drawn as one line of text a frame.
 So its film is a graph: position to the right, time downwards.
 
-    python airtrack.py [EXAMPLE] [d] [NAME=VALUE ...] [--fast] [--frames N]
-    python airtrack.py chart [EXAMPLE] [NAME=VALUE ...]
-    python airtrack.py stability [EXAMPLE] [NAME=VALUE ...]
-
-    EXAMPLE      the number of an example; without it 0, or 10 for the commands
-    d            details after each line: position, velocity, frame rate
+A WORD is one of these, in any order:
+    EXAMPLE      the number of an example; without it 0, or 10 for chart and stability
+    d            details after each line: position x, velocity v and frame rate FPS; where
+                 the true car o is drawn, also err, how far the car is to the right of it
     NAME=VALUE   a setting that replaces the example's own
-    --fast       no waiting, no keys and no colours: for a pipe or a file
-    --frames N   stop after N frames; without it, after 50000
-    chart        speed against accuracy: what each method costs, how wrong it is
-    stability    the map: at which frame rates each method fails
+    chart        no film, but speed against accuracy: what each method costs, how wrong it is
+    stability    no film, but the map: at which frame rates each method fails
 
+For example: python airtrack.py 10 d fps_target=30
 README.md says what this is good for. .github/lesson.md is a lesson for a class.
 """
 # What is where?
-#     Sections 1, 2 and 4    the physics: how a car moves and bounces, one frame at a time.
-#     Sections 3, 5 and 6    the film: what a run starts from, how a frame is drawn, the main loop.
-#     Sections 7 and 8       the truth, and a law that says what a bouncing car will do.
-#     Sections 9 and 10      the two experiments: what each method costs, and where it fails.
-#     Sections 11 to 13      printing, checks and the command line. Nobody needs to read them.
+#     Sections 1 to 4    the physics: how a car moves and bounces, and where it truly is.
+#     Sections 5 and 6   the film: how a frame is drawn, and the main loop.
+#     Sections 7 to 9    how wrong the methods are: the chart, the map, and the law behind the map.
+#     Sections 10 to 12  what is said around a film, checks, the command line. They hold no physics.
 # The file examples.py holds the numbered examples and the keys.
+#
+# Which method should I take? If you read nothing else, read this table. A method is a motion and a
+# correction. The motion moves the car through a frame as if there were no walls. If the move has
+# ended beyond a wall, the correction says where the car is instead, and how fast.
+#
+#     method                 order  energy       take it for
+#     a  backward + rebound  1      up and down  scenery, where heights and times do not matter
+#     b  exact + rebound     1      too much     nothing: a car that should come to rest hops on
+#     c  exact + conserve    2      right        most things
+#     d  exact + rewind      none   right        short frames, if each bounce must be at its moment
+#     e  exact + replay      none   right        the truth, in frames of any length
+#
+# Order 1 means that frames of half the length make half the error, and order 2 that they make a
+# quarter. Methods d and e have no order: where they are right, their only error is round-off. The
+# energy is that of a car which bounces on the wall to which it is accelerated, as a ball bounces on
+# a floor. Methods b to e need a constant acceleration. Methods a to d need frames that are short
+# beside the time between two bounces. In a longer frame they may miss a bounce or settle only one
+# of two, and they may throw the car out at the other end of the track.
 
 import argparse
 import difflib
 import math
 import os
-import re
 import shutil
+import signal
 import sys
 import textwrap
 import time
 from collections import deque
-from contextlib import nullcontext, suppress
-from dataclasses import Field, dataclass, field, fields, replace
+from contextlib import nullcontext
+from dataclasses import dataclass, field, fields, replace
 from itertools import pairwise
 from statistics import fmean
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
-from examples import CTRL_C, EXAMPLES, OWN_SCENE, Example, Keys, NoKeys, taken_keys
+from examples import CHANGED, EXAMPLES, OWN_SCENE, Keys, NoKeys, taken_keys
 
 # ==== 1. Moving =================================================================================
 # Where is the car dt_s later, if there are no walls?
@@ -59,196 +73,161 @@ from examples import CTRL_C, EXAMPLES, OWN_SCENE, Example, Keys, NoKeys, taken_k
 # In free flight the energy of the car should not change. For each kilogram of the car this energy
 # is E = v^2/2 - a x. The docstring of each method says what one step does to E.
 
-State = tuple[float, float]  # x_m, v_mps
+State = tuple[float, float]  # a place and a velocity
 
 def forward(x_m: float, v_mps: float, a_mps2: float, dt_s: float) -> State:
-    """Forward Euler: x + v dt, then v + a dt. Each step adds a^2 dt^2/2 to E."""
+    """Forward Euler: x + v dt, then v + a dt. Each step adds a^2 dt^2/2 to the energy E."""
     return x_m + v_mps * dt_s, v_mps + a_mps2 * dt_s
 
 def backward(x_m: float, v_mps: float, a_mps2: float, dt_s: float) -> State:
-    """Backward Euler: v + a dt, then x + v dt. Each step takes a^2 dt^2/2 from E."""
+    """Backward Euler: v + a dt, then x + v dt. Each step takes a^2 dt^2/2 from the energy E."""
     v_mps += a_mps2 * dt_s
     return x_m + v_mps * dt_s, v_mps
 
 def exact(x_m: float, v_mps: float, a_mps2: float, dt_s: float) -> State:
-    """Kinematics: x + v dt + a dt^2/2, and v + a dt. No step changes E."""
+    """Kinematics: x + v dt + a dt^2/2, and v + a dt. No step changes the energy E."""
     return x_m + v_mps * dt_s + a_mps2 * dt_s * dt_s / 2, v_mps + a_mps2 * dt_s
 
-# If you write another motion, name it here. Then film and map know it. Rewind and replay refuse it,
-# and the law of the hops (section 8) needs to know what it does to E.
+# If you write another motion, name it here. Then film and map know it. The corrections rewind and
+# replay refuse it, because they need the exact motion.
 MOTIONS = {"forward": forward, "backward": backward, "exact": exact}
 
 # ==== 2. Colliding ==============================================================================
 # Where is the car after it has met a wall, and how fast is it?
 #
-#     wall_m   the position of the wall in m.
-#     CR       the coefficient of restitution: the speed after a bounce / the speed before it.
+# A collision is found when a move has ended beyond a wall. Then a correction gives the car a new
+# place and a new velocity. The correction need not know which of the two walls it is, because it
+# counts from the wall, and into the wall:
 #
-# A collision is found when a move has ended beyond a wall. Then a correction takes the x and v
-# where the move ended, and returns the x and v after the bounce. There are six corrections. Five of
-# them are in this section. The overlap is x - wall: it says how far beyond the wall the move ended.
-# At the left wall it is negative.
+#     depth_m       how far the car is beyond the wall. In front of the wall, depth_m is negative.
+#     inward_mps    the velocity of the car. It is positive if the car moves into the wall.
+#     inward_mps2   the acceleration of the car. It is positive if it points into the wall.
+#     CR            the coefficient of restitution: the speed after a bounce / the speed before it.
 #
-# Here is one collision at the left wall. The motion is exact, CR is 0.8, a is -20 m/s^2, and a
-# column is 1 cm. In one frame of 0.1 s the car moves from the start to the 0, which is 8 cm beyond
-# the wall. Then each correction gives the car a new place (*) and a new v. The last column is the
-# energy E, if we count x from the wall: then a car that stands still at the wall has E = 0.
+# Here is one collision at the left wall. There, inward is to the left. The motion is exact,
+# inward_mps2 is 20, CR is 0.8, and a column is 1 cm. In one frame of 0.1 s the car moves from the
+# start to the 0, which is 8 cm beyond the wall. Then each correction gives the car a new place (*).
+# E is the energy for each kilogram: inward_mps^2/2 - inward_mps2 * depth_m, in J/kg.
 #
-#     start              |           *       v = -1.00 m/s   2.90 J/kg
-#     none       *       |                   v =  2.40 m/s   1.28 J/kg
-#     surface    0       *                   v =  2.40 m/s   2.88 J/kg
-#     rebound    0       |     *             v =  2.40 m/s   4.16 J/kg
-#     conserve   0       |     *             v =  1.07 m/s   1.86 J/kg
-#     rewind     0       |    *              v =  1.33 m/s   1.86 J/kg
+#                                            depth_m   inward_mps   E
+#     start              |           *       -0.120       1.00     2.90
+#     the move   0       |                    0.080       3.00     2.90
+#     none       *       |                    0.080      -2.40     1.28
+#     surface    0       *                    0.000      -2.40     2.88
+#     rebound    0       |     *             -0.064      -2.40     4.16
+#     conserve   0       |     *             -0.064      -1.07     1.86
+#     rewind     0       |    *              -0.048      -1.33     1.86
 #
 # A bounce keeps the part CR of the speed, so it keeps CR^2 of the energy: 0.64 * 2.90 is 1.86.
 # Only conserve and rewind leave the right energy. Only rewind leaves the right place, too.
 #
-# Two functions come first, which some of the corrections use. The five corrections themselves all
-# take the same five arguments, so that step() may call any of them.
+# All corrections take the same four arguments and return a new depth_m and a new inward_mps. So
+# step() can call any of them.
+
+def none(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> State:
+    """Reverse the velocity, but leave the car beyond the wall, where it may be caught.
+
+    In example 3 the left wall is at 0.25 m, and CR is 0.6:
+        frame 46   The move ends 5.2 cm deep.   inward_mps changes from  2.30 to -1.38.
+        frame 47   The move ends 0.7 cm deep.   inward_mps changes from -1.33 to  0.80.
+        frame 48   The move ends 3.6 cm deep.   inward_mps changes from  0.85 to -0.51.
+    In frame 47 the car was still beyond the wall, because the bounce had slowed it. So its velocity
+    was reversed again, now into the wall: the car is caught. Such a car is said to stick. The other
+    corrections are there to prevent this.
+    """
+    return depth_m, -CR * inward_mps
+
+def surface(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> State:
+    """Put the car on the wall, with its velocity reversed.
+
+    If a points into the wall, this lifts the car against a. That should cost speed, but surface
+    does not slow the car. So the car has more energy than it should: in the drawn collision
+    2.88 J/kg instead of 1.86.
+    """
+    return 0.0, -CR * inward_mps
+
+def rebound(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> State:
+    """Put the car in front of the wall, CR * depth away.
+
+    If a is 0, this is right: in the time in which the move went beyond the wall by the depth, the
+    true car went back by CR times as much. If a points into the wall, rebound adds energy, as
+    surface does. If CR * depth is longer than the track, the car is thrown out at the other end
+    (example 14).
+    """
+    return -CR * depth_m, -CR * inward_mps
+
+def conserve(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> State:
+    """Put the car where rebound does, at the speed with which it has the right energy there.
+
+    If this energy is too small to get there, put the car on the wall. With the exact motion the
+    energy is right, and only the moment of the bounce is wrong. The error is of second order: half
+    the dt makes a quarter of it. Like rebound, conserve may throw the car out.
+    """
+    # Take the car back to the wall. E does not change, so its speed w there follows from
+    # w^2 = v^2 - 2 a depth. This may come out negative, by round-off or if backward has taken too
+    # much energy. The bounce leaves the speed CR w.
+    w_squared = max(0.0, inward_mps * inward_mps - 2 * inward_mps2 * depth_m)
+    bounced_mps = CR * math.sqrt(w_squared)  # 1.93 m/s in the drawn collision
+    # Take the car to its new place, CR * depth in front of the wall. E does not change, so its
+    # speed u there follows from u^2 = (CR w)^2 - 2 a CR depth.
+    u_squared = bounced_mps * bounced_mps - 2 * inward_mps2 * CR * depth_m
+    if u_squared < 0:
+        return 0.0, -bounced_mps
+    return -CR * depth_m, -math.sqrt(u_squared)
 
 def arrival(d_m: float, u_mps: float, a_mps2: float) -> tuple[float, float]:
     """When will a car be at a wall d_m ahead of it, and how fast? Returns t_s and w_mps.
 
     u_mps is the velocity of the car now. Both u_mps and a_mps2 count as positive if they point
-    towards the wall. At least one of them must be greater than 0.
+    towards the wall. The car must be able to get there: with d = 1, u = 1 and a = -20 it is not.
     """
     # Energy gives the speed w at the wall: w^2 = u^2 + 2 a d. Round-off may make w^2 negative.
     w_mps = math.sqrt(max(0.0, u_mps * u_mps + 2 * a_mps2 * d_m))
-    # Two formulas give the time t. If two nearly equal numbers are subtracted, little but round-off
-    # is left. So take the formula in which the speeds are added.
+    # Two formulas give the time t. A difference of two nearly equal numbers is nearly only
+    # round-off. So take the formula in which the speeds are added.
     if u_mps > 0:
         t_s = 2 * d_m / (u_mps + w_mps)  # from the mean velocity: d = t (u + w)/2
     else:
         t_s = (w_mps - u_mps) / a_mps2  # from w = u + a t. Here u <= 0, so w - u is a sum.
     return t_s, w_mps
 
-def side_of(x_m: float, wall_m: float) -> int:
-    """On which side of the track is a car that is beyond a wall? 1 is right, -1 is left."""
-    if x_m > wall_m:
-        return 1
-    return -1
-
-def none(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
-    """Reverse v, but leave the car beyond the wall. It may never get out again.
-
-    In example 3 the left wall is at 0.25 m, and CR is 0.6:
-        frame 46   The move ends at 0.198 m.   v is reversed from -2.30 to  1.38 m/s.
-        frame 47   The move ends at 0.243 m.   v is reversed from  1.33 to -0.80 m/s.
-        frame 48   The move ends at 0.214 m.   v is reversed from -0.85 to  0.51 m/s.
-    In frame 47 the car was still beyond the wall, because the bounce had slowed it. So its velocity
-    was reversed again, now into the wall: the car is caught. Such a car is said to stick. The other
-    corrections are there to prevent this.
-    """
-    return x_m, -CR * v_mps
-
-def surface(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
-    """Put the car on the wall.
-
-    If a points into the wall, this lifts the car against a. That should cost speed, but surface
-    takes nothing from v for it. So the car has more energy than it should: in the drawn collision
-    2.88 J/kg instead of 1.86.
-    """
-    return wall_m, -CR * v_mps
-
-def rebound(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
-    """Put the car in front of the wall, CR * overlap away.
-
-    If a is 0, this is right: in the time in which the move went beyond the wall by the overlap, the
-    true car went back by CR times as much. If a points into the wall, rebound adds energy, as
-    surface does. If CR * overlap is longer than the track, the car is thrown out at the other end
-    (example 14).
-    """
-    overlap_m = x_m - wall_m
-    return wall_m - CR * overlap_m, -CR * v_mps
-
-def conserve(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
-    """Put the car where rebound does, at the speed with which it has the right energy there.
-
-    If this energy is too small to get there, put the car on the wall. With the exact motion only
-    the moment of the bounce is wrong. The error is of second order: half the dt makes a quarter of
-    it. Like rebound, conserve may throw the car out.
-    """
-    # Count everything positive into the wall. (The numbers are those of the drawn collision.)
-    side = side_of(x_m, wall_m)
-    depth_m = side * (x_m - wall_m)  # 0.08 m
-    inward_mps2 = side * a_mps2  # 20 m/s^2
-    # Take the car back to the wall. E does not change, so its speed w there follows from
-    # w^2 = v^2 - 2 a depth. This may come out negative, by round-off or if backward has taken too
-    # much energy. The bounce leaves the speed CR w.
-    w_squared = max(0.0, v_mps * v_mps - 2 * inward_mps2 * depth_m)
-    bounced_mps = CR * math.sqrt(w_squared)  # 1.93 m/s
-    # Take the car to its new place, CR * depth in front of the wall. E does not change, so its
-    # speed u there follows from u^2 = (CR w)^2 - 2 a CR depth.
-    u_squared = bounced_mps * bounced_mps - 2 * inward_mps2 * CR * depth_m
-    if u_squared < 0:
-        return wall_m, -side * bounced_mps
-    return wall_m - side * CR * depth_m, -side * math.sqrt(u_squared)  # 0.064 m away, 1.07 m/s
-
-def rewind(x_m: float, v_mps: float, wall_m: float, a_mps2: float, CR: float) -> State:
+def rewind(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> State:
     """Take the car back in time to the wall, let it bounce, and move it on to the frame's end.
 
     With the exact motion this is right if the frame holds one bounce and the move ends beyond the
     wall (example 10). Rewind cannot settle a second bounce. If the car turns beyond the wall and is
-    back on the track when the frame ends, no collision is found: a missed event (example 18).
+    back on the track when the frame ends, no collision is found: a missed event (example 18). If a
+    move goes further beyond the wall than the track is long, rewind may throw the car out, too.
     """
-    # Count everything positive into the wall, as conserve does.
-    side = side_of(x_m, wall_m)
-    depth_m = side * (x_m - wall_m)  # 0.08 m
-    inward_mps = side * v_mps  # 3.00 m/s
-    inward_mps2 = side * a_mps2  # 20 m/s^2
-    # Run the film backwards: the car comes out of the wall, at first with the speed inward_mps. In
-    # reversed time v changes its sign, but a does not. So a, which points into the wall, slows the
-    # car down. When is it at the surface of the wall, and how fast?
+    # Run the film backwards: the car comes out of the wall. How long does that take, and how fast
+    # is the car at the wall? In reversed time a velocity changes its sign, and an acceleration does
+    # not. But arrival() counts towards the wall, which is outwards here. This changes both signs.
+    # So the velocity is inward_mps again, and the acceleration is -inward_mps2.
     late_s, met_mps = arrival(depth_m, inward_mps, -inward_mps2)  # 0.030 s, 2.41 m/s
-    # Run it forwards again, from the surface, after the bounce, for the same time.
-    new_depth_m, new_inward_mps = exact(0.0, -CR * met_mps, inward_mps2, late_s)  # -0.048, -1.33
-    if new_depth_m > 0:
-        new_depth_m = 0.0  # it is in the wall again, by a second bounce: put it on the wall
-    return wall_m + side * new_depth_m, side * new_inward_mps
+    # Run it forwards again, from the wall, after the bounce, for the same time.
+    depth_m, inward_mps = exact(0.0, -CR * met_mps, inward_mps2, late_s)
+    # If the car is in the wall again, there was a second bounce: put it on the wall.
+    return min(depth_m, 0.0), inward_mps
 
 CORRECTIONS = {"none": none, "surface": surface, "rebound": rebound, "conserve": conserve,
                "rewind": rewind}
 
-# The sixth correction, replay, works out a whole frame anew: see section 7.
+# The sixth correction, replay, is in section 4. It is asked for a whole frame.
 ALL_CORRECTIONS = [*CORRECTIONS, "replay"]
 EXACT_ONLY = ["rewind", "replay"]  # they need the exact motion
 
-# A method is a motion and a correction. Example 21 and the chart compare five methods, which have
-# the letters a to e. Whoever reads nothing else should read this table. Its column energy says what
-# happens to the energy of a car that hops on a wall, as a ball hops on a floor.
-#
-#     method                 order  energy       it fails if                    take it for
-#     a  backward + rebound  1      up and down  heights or times matter;       scenery
-#                                                it may hop for ever
-#     b  exact + rebound     1      too much     the car should come to rest;   nothing (c is hardly
-#                                                it may hop for ever            dearer)
-#     c  exact + conserve    2      right        it misses a bounce             most things
-#     d  exact + rewind      none   right        it misses a bounce, or         short frames
-#                                                a frame holds two
-#     e  exact + replay      none   right        never: dt may have any length  the truth
-#
-# Order 1 means that half the dt makes half the error, and order 2 that it makes a quarter. Where d
-# and e do not fail, their only error is round-off, so they have no order. With a, b and c a car may
-# be thrown out if CR * overlap is longer than the track. Methods b to e need a constant a.
-METHODS = {"a": ("backward", "rebound"), "b": ("exact", "rebound"), "c": ("exact", "conserve"),
-           "d": ("exact", "rewind"), "e": ("exact", "replay")}
+# ==== 3. The scene and a frame ==================================================================
+# What does a run start from, and how does the car get from one frame to the next?
 
-# ==== 3. The scene ==============================================================================
-# What does a run start from?
+Value = TypeVar("Value")
 
-def a_number(default: float, unit: str, least: float, largest: float, meaning: str) -> Any:
-    """A setting that is a number, with its unit and its range.
+def setting(default: Value, meaning: str, **allowed: Any) -> Value:
+    """A setting of a scene: its default, its meaning and what is allowed.
 
-    The metadata of a field is a dictionary that dataclasses keep for us and do not use. Here the
-    command line finds in it what is allowed, so that this is said only once.
+    A field of a dataclass may carry metadata: a dictionary that dataclasses keep and do not use.
+    The checks (section 11) and -h find there what is allowed, so it is said only once.
     """
-    metadata = {"unit": unit, "least": least, "largest": largest, "meaning": meaning}
-    return field(default=default, metadata=metadata)
-
-def a_choice(default: Any, choices: list[Any], meaning: str) -> Any:
-    """A setting that is one of several choices."""
-    return field(default=default, metadata={"choices": choices, "meaning": meaning})
+    return field(default=default, metadata={"meaning": meaning} | allowed)
 
 YES_OR_NO = [False, True]
 
@@ -259,126 +238,262 @@ class Scene:
     Raises ValueError if a setting is out of its range, or if two settings exclude each other.
     """
 
-    x_m: float = a_number(1.1, "m", -1000, 1000, "position at the start")
-    v_mps: float = a_number(0.0, "m/s", -1000, 1000, "velocity at the start: speed to the right")
-    a_mps2: float = a_number(
-        0.0, "m/s^2", -1000, 1000, "acceleration, gravity g: positive to the right")
-    left_edge_m: float = a_number(0.25, "m", -1000, 1000, "position of the left wall")
-    right_edge_m: float = a_number(2.2, "m", -1000, 1000, "position of the right wall")
-    CR: float = a_number(0.8, "", 0, 1, "coefficient of restitution: speed after / before a bounce")
-    motion: str = a_choice("backward", list(MOTIONS), "how the car is moved")
-    correction: str = a_choice("rebound", ALL_CORRECTIONS, "how a collision is settled")
-    fps_target: float = a_number(30.0, "1/s", 0.1, 1000, "frames a second; dt is 1/fps_target")
-    use_observed_dt: bool = a_choice(False, YES_OR_NO, "dt is how long the frame before lasted")
-    jitter: float = a_number(0.0, "", 0, 0.9, "frames are longer or shorter by up to this fraction")
-    auto_off: bool = a_choice(True, YES_OR_NO, "stop when the car is at rest at a wall")
-    m_to_px: float = a_number(55.0, "px/m", 0.001, 1000, "zoom: columns for each metre")
-    width_px: int = a_number(135, "px", 10, 1000, "columns of the picture, which begins at x = 0")
-    show_start_mark: bool = a_choice(False, YES_OR_NO, "draw a . where the car started")
-    show_collision_mark: bool = a_choice(
-        True, YES_OR_NO, "draw a 0 where the move alone ended, in a collision")
-    show_exact_mark: bool = a_choice(False, YES_OR_NO, "draw an o where the car truly is")
-    show_methods: bool = a_choice(False, YES_OR_NO, "draw a to e where five methods have the car")
+    x_m: float = setting(1.1, "start position in m", least=-1000, largest=1000)
+    v_mps: float = setting(0.0, "start velocity in m/s, to the right", least=-1000, largest=1000)
+    a_mps2: float = setting(0.0, "acceleration in m/s^2, to the right", least=-1000, largest=1000)
+    left_edge_m: float = setting(0.25, "position of the left wall in m", least=-1000, largest=1000)
+    right_edge_m: float = setting(2.2, "position of the right wall in m", least=-1000, largest=1000)
+    CR: float = setting(0.8, "speed after a bounce / before it", least=0, largest=1)
+    motion: str = setting("backward", "how the car is moved", choices=list(MOTIONS))
+    correction: str = setting("rebound", "how a collision is settled", choices=ALL_CORRECTIONS)
+    fps_target: float = setting(30.0, "frames a second: dt is 1/fps_target s, but with "
+                                "use_observed_dt", least=0.1, largest=1000)
+    use_observed_dt: bool = setting(False, "dt is how long a frame lasted", choices=YES_OR_NO)
+    jitter: float = setting(0.0, "frames last longer or shorter by up to this fraction",
+                            least=0, largest=0.9)
+    auto_off: bool = setting(True, "stop when the car is at rest", choices=YES_OR_NO)
+    m_to_px: float = setting(55.0, "zoom in columns for each m", least=0.001, largest=1000)
+    width_px: int = setting(135, "width of the picture in columns", least=10, largest=1000)
+    show_start_mark: bool = setting(False, "draw a . at the start", choices=YES_OR_NO)
+    show_collision_mark: bool = setting(True, "draw a 0 where a move ended", choices=YES_OR_NO)
+    show_exact_mark: bool = setting(False, "draw an o for the true car", choices=YES_OR_NO)
+    show_methods: bool = setting(False, "draw a to e for five methods", choices=YES_OR_NO)
 
     def __post_init__(self) -> None:
         """Refuse a scene that is not allowed. Python calls this when a scene is made."""
-        check(self)  # see section 12
-
-    def wall_passed(self, x_m: float) -> float | None:
-        """The position of the wall that x_m is beyond, or None if x_m is on the track."""
-        if x_m < self.left_edge_m:
-            return self.left_edge_m
-        if x_m > self.right_edge_m:
-            return self.right_edge_m
-        return None
+        check(self)  # see section 11
 
     def to_track(self, x_m: float) -> float:
-        """The place on the track that is nearest to x_m."""
-        wall_m = self.wall_passed(x_m)
-        if wall_m is None:
-            return x_m
-        return wall_m
+        """The place on the track that is nearest to x_m: x_m itself, or the wall it is beyond."""
+        return min(max(x_m, self.left_edge_m), self.right_edge_m)
 
-# ==== 4. A frame ================================================================================
-# How does the car get from one frame to the next?
+    def starts_on_track(self) -> bool:
+        """Whether the car starts between the walls, and not beyond one."""
+        return self.left_edge_m <= self.x_m <= self.right_edge_m
 
-def step(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> tuple[float, float, float | None]:
+    def floor_m(self) -> float:
+        """The wall to which the car is accelerated. Without a, it is the left wall."""
+        return self.right_edge_m if self.a_mps2 > 0 else self.left_edge_m
+
+    def energy(self, x_m: float, v_mps: float) -> float:
+        """The energy in J/kg: 0 for a car that stands still at the floor."""
+        return v_mps * v_mps / 2 - self.a_mps2 * (x_m - self.floor_m())
+
+Moved = tuple[float, float, float | None]  # x_m, v_mps, mark_m
+
+def step(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> Moved:
     """Move the car by a frame of dt_s, and settle a collision. Returns x_m, v_mps and mark_m.
 
     mark_m is None or, in a collision, where the move alone ended. The film draws a 0 there.
     """
+    if scene.correction == "replay":
+        return replay(scene, x_m, v_mps, dt_s)  # it works out the whole frame, see section 4
     # Move the car as if there were no walls.
     move = MOTIONS[scene.motion]
     free_m, free_mps = move(x_m, v_mps, scene.a_mps2, dt_s)
-    wall_m = scene.wall_passed(free_m)
-    # Replay works out the whole frame anew. It is also asked if v has changed its sign, because
-    # then the car may have met a wall, turned beyond it and come back.
-    may_have_met_wall = wall_m is not None or v_mps * free_mps < 0
-    if scene.correction == "replay" and may_have_met_wall:
-        x_m, v_mps, has_bounced = replay(scene, x_m, v_mps, dt_s)
-        if has_bounced:
-            return x_m, v_mps, free_m
-        return x_m, v_mps, None
-    # The move ended on the track: there is nothing to settle.
-    if wall_m is None:
+    if scene.left_edge_m <= free_m <= scene.right_edge_m:
         return free_m, free_mps, None
-    # The move ended beyond a wall: settle the collision.
-    correction = CORRECTIONS[scene.correction]
-    x_m, v_mps = correction(free_m, free_mps, wall_m, scene.a_mps2, scene.CR)
-    return x_m, v_mps, free_m
+    # The move ended beyond a wall. Count from this wall, and into it. Inward is 1 at the right
+    # wall, where into the wall is to the right, and -1 at the left wall.
+    wall_m = scene.to_track(free_m)
+    inward = 1 if free_m > wall_m else -1
+    depth_m = inward * (free_m - wall_m)
+    correct = CORRECTIONS[scene.correction]
+    depth_m, inward_mps = correct(depth_m, inward * free_mps, inward * scene.a_mps2, scene.CR)
+    # Count from x = 0 and to the right again.
+    return wall_m + inward * depth_m, inward * inward_mps, free_m
+
+# ==== 4. The truth ==============================================================================
+# What would the car really do?
+#
+# The correction replay knows it, for a frame of any length: one step() of 20 s with motion=exact
+# and correction=replay is where the car truly is after 20 s. The film's o, the chart and the map
+# rely on this. So the tests compare it with a reference that is worked out with 60 digits.
+#
+# Think of a ball in a room. The wall to which the car is accelerated is the floor, and the other
+# wall is the ceiling. h is the height of the ball above the floor. The ball flies from bounce to
+# bounce, and arrival() says when each flight ends.
+#
+# At CR < 1 each hop on the floor lasts CR times as long as the hop before. So infinitely many hops
+# take a finite time: if the first hop lasts 1 s, all of them last 1 + CR + CR^2 + ... seconds, and
+# this sum is 1/(1 - CR). The moment at which they end is called the Zeno point. From then on the
+# ball is at rest. Nobody can follow infinitely many hops one by one. So a ball that would rise less
+# than GRAZE_M is at rest here. The heights of the hops shrink so fast that this takes a few hundred
+# hops at most, unless CR is very near to 1.
+
+GRAZE_M = 5e-11  # far more than the round-off of a position, and less than an atom's width
+
+def next_bounce(h_m: float, rise_mps: float, g_mps2: float,
+                room_m: float) -> tuple[str, float, float]:
+    """Which wall does the ball meet next, after how many s, and at how many m/s?
+
+    h_m is the height of the ball, and rise_mps is its velocity, upwards.
+    """
+    # To get to the ceiling takes the energy g * height. A ball may touch the ceiling at almost no
+    # speed, and then round-off would decide whether it does. So a ball that would turn less than
+    # GRAZE_M beyond the ceiling does not meet it.
+    energy_to_ceiling = g_mps2 * (room_m - h_m + GRAZE_M)
+    if rise_mps > 0 and rise_mps * rise_mps / 2 >= energy_to_ceiling:
+        flight_s, speed_mps = arrival(room_m - h_m, rise_mps, -g_mps2)
+        return "ceiling", flight_s, speed_mps
+    flight_s, speed_mps = arrival(h_m, -rise_mps, g_mps2)
+    return "floor", flight_s, speed_mps
+
+def replay(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> Moved:
+    """Follow the exact motion for a whole frame, from bounce to bounce, as a ball in a room.
+
+    Takes and returns what step() does. Right for a frame of any length.
+    """
+    # A car that has not turned and is still on the track has met no wall. This quick way out is
+    # not needed, but most frames take it, and it is several times as fast.
+    free_m, free_mps = exact(x_m, v_mps, scene.a_mps2, dt_s)
+    has_turned = v_mps * free_mps < 0
+    if scene.left_edge_m <= free_m <= scene.right_edge_m and not has_turned:
+        return free_m, free_mps, None
+    # Turn the track into a room. up is the direction away from the floor.
+    up = -1 if scene.a_mps2 > 0 else 1
+    floor_m = scene.floor_m()
+    room_m = scene.right_edge_m - scene.left_edge_m
+    g_mps2 = abs(scene.a_mps2)
+    h_m = up * (scene.to_track(x_m) - floor_m)
+    rise_mps = up * v_mps
+    remaining_s = dt_s  # the part of the frame that is still to come
+    last_wall = ""  # where the ball bounced last in this frame
+    while rise_mps != 0 or g_mps2 != 0:  # otherwise nothing moves the ball
+        wall, flight_s, speed_mps = next_bounce(h_m, rise_mps, g_mps2, room_m)
+        if scene.CR == 1 and wall == "floor" and last_wall == "floor":
+            # From now on all hops last equally long. Leave out those that fit in as a whole. Then
+            # less time remains than a hop lasts.
+            remaining_s %= flight_s
+        if flight_s > remaining_s:
+            break  # the frame ends before the ball gets there
+        remaining_s -= flight_s
+        last_wall = wall
+        if wall == "ceiling":
+            h_m, rise_mps = room_m, -scene.CR * speed_mps
+        else:
+            h_m, rise_mps = 0.0, scene.CR * speed_mps
+            if rise_mps * rise_mps / 2 <= g_mps2 * GRAZE_M:
+                return floor_m, 0.0, free_m  # at rest, as it cannot rise by GRAZE_M
+    h_m, rise_mps = exact(h_m, rise_mps, -g_mps2, remaining_s)
+    x_m = scene.to_track(floor_m + up * h_m)  # round-off must not leave it beyond a wall
+    if last_wall == "":
+        return x_m, up * rise_mps, None
+    return x_m, up * rise_mps, free_m
+
+def truth_of(scene: Scene) -> Scene:
+    """The same scene, solved exactly. A start beyond a wall is moved to the wall."""
+    return replace(scene, motion="exact", correction="replay", x_m=scene.to_track(scene.x_m))
+
+# These are the five methods of the table at the head of this file. Example 21 and the chart compare
+# them, by their letters.
+METHODS = {"a": ("backward", "rebound"), "b": ("exact", "rebound"), "c": ("exact", "conserve"),
+           "d": ("exact", "rewind"), "e": ("exact", "replay")}
+
+def methods_of(scene: Scene) -> dict[str, Scene]:
+    """The same scene with each of the five methods, by their letters."""
+    scenes = {}
+    for letter, (motion, correction) in METHODS.items():
+        scenes[letter] = replace(scene, motion=motion, correction=correction)
+    return scenes
+
+def method_text(scene: Scene) -> str:
+    """The method of a scene in words, as in backward + rebound."""
+    return f"{scene.motion} + {scene.correction}"
 
 # ==== 5. Drawing ================================================================================
-# How does a frame become a line of text?
+# How does a frame become a line of text, and how is a scene told in words?
 
-def paint(line: list[str], mark: str, x_px: float) -> None:
-    """Put the mark into its column, over what is there, if the line has that column."""
-    column = round(x_px)
-    if 0 <= column < len(line):
-        line[column] = mark
+def render_track(scene: Scene, places_m: dict[str, float], mark_m: float | None) -> str:
+    """Draw a frame: one line of scene.width_px columns. places_m has the cars by their marks.
 
-def render_track(scene: Scene, x_m: float, mark_m: float | None, others: dict[str, State]) -> str:
-    """Draw a frame: one line of scene.width_px columns. others has the other cars by their marks.
-
-    The line is painted from back to front: what is painted later covers what was there.
+    The line is painted from back to front: what is painted later covers what was there. The cars
+    are in this order, too. So the car itself, *, is the last of them, and nothing hides it.
     """
-    line = [" "] * scene.width_px
-    zoom = scene.m_to_px
+    marks = []
     if scene.show_collision_mark and mark_m is not None:
-        paint(line, "0", mark_m * zoom)
+        marks.append(("0", mark_m))
     if scene.show_start_mark:
-        paint(line, ".", scene.x_m * zoom)
-    paint(line, "|", scene.left_edge_m * zoom)
-    paint(line, "|", scene.right_edge_m * zoom)
-    for mark, (other_m, _) in others.items():
-        paint(line, mark, other_m * zoom)
-    # The car comes last, so that nothing hides it. Outside the picture it is < or >, at the edge.
-    column = round(x_m * zoom)
-    if column < 0:
-        line[0] = "<"
-    elif column >= scene.width_px:
-        line[-1] = ">"
-    else:
-        line[column] = "*"
+        marks.append((".", scene.x_m))
+    marks.append(("|", scene.left_edge_m))
+    marks.append(("|", scene.right_edge_m))
+    marks.extend(places_m.items())
+    line = [" "] * scene.width_px
+    first_m = min(0.0, scene.left_edge_m)  # the picture begins at 0 or, further left, at the wall
+    for mark, x_m in marks:
+        column = round((x_m - first_m) * scene.m_to_px)
+        if 0 <= column < scene.width_px:
+            line[column] = mark
+        elif mark == "*" and column < 0:
+            line[0] = "<"  # it is out of the picture, on the left
+        elif mark == "*":
+            line[-1] = ">"
     return "".join(line)
 
 # A terminal changes its colour where it reads "\033[" and a number and "m". 0 ends the colour.
 COLOURED_MARKS = str.maketrans({
     "*": "\033[33m*\033[0m",  # yellow
+    "+": "\033[36m+\033[0m",  # cyan
     "o": "\033[32mo\033[0m",  # green
     "0": "\033[31m0\033[0m",  # red
 })
 
-def details_text(x_m: float, v_mps: float, fps: float, truth: State | None) -> str:
+def details_text(x_m: float, v_mps: float, fps: float, true_m: float | None) -> str:
     """What d adds to a line: position, velocity, frame rate and, given the truth, the error."""
     text = f"x = {x_m:6.2f}, v = {v_mps:5.2f}, FPS = {fps:3.0f}"
-    if truth is None:
+    if true_m is None:
         return text
-    true_m, _ = truth
     return f"{text}, err = {x_m - true_m:9.2e}"
+
+def scene_of(settings: dict[str, Any]) -> Scene:
+    """The scene with these settings. Raises ValueError."""
+    scene = Scene(**settings)
+    if "m_to_px" in settings:
+        return scene
+    # Nobody chose a zoom: take one that shows the right wall.
+    shown_m = scene.right_edge_m - min(0.0, scene.left_edge_m)
+    return replace(scene, m_to_px=min(scene.m_to_px, (scene.width_px - 1) / shown_m))
+
+def fitted(scene: Scene, has_details: bool) -> Scene:
+    """The scene, drawn smaller if its lines are wider than the terminal."""
+    columns = shutil.get_terminal_size().columns
+    if has_details:
+        true_m = 0.0 if scene.show_exact_mark else None
+        columns -= len(details_text(-1000, -1000, scene.fps_target, true_m))  # nearly all fit in
+    columns = max(columns, 10)  # the least that a scene may have
+    if columns >= scene.width_px or not sys.stdout.isatty():
+        return scene
+    # What was in the last column must stay in the last column. The first column has number 0.
+    m_to_px = scene.m_to_px * (columns - 1) / (scene.width_px - 1)
+    return replace(scene, width_px=columns, m_to_px=max(m_to_px, 0.001))
+
+PYTHON = os.path.basename(sys.executable).removesuffix(".exe")  # python3 where there is no python
+
+def start_text(scene: Scene) -> str:
+    """Car and track, by the names that one may type. (A number may have ten digits.)"""
+    return (f"x_m={scene.x_m:.10g} v_mps={scene.v_mps:.10g} a_mps2={scene.a_mps2:.10g} "
+            f"CR={scene.CR:.10g}, walls at {scene.left_edge_m:.10g} and "
+            f"{scene.right_edge_m:.10g} m")
+
+def scene_text(scene: Scene) -> str:
+    """The whole scene but for its drawing: cars whose scenes have the same text move alike."""
+    text = f"{start_text(scene)}; {method_text(scene)}, {scene.fps_target:.10g} FPS"
+    if scene.jitter > 0:
+        text += f", jitter={scene.jitter:.10g}"
+    if scene.use_observed_dt:
+        text += ", use_observed_dt=True"
+    if not scene.starts_on_track():
+        text += "; it starts beyond a wall"
+    return text
+
+def say(text: str) -> None:
+    """Print a paragraph, as wide as the terminal but no wider than is good to read."""
+    width = min(100, shutil.get_terminal_size().columns)
+    print(textwrap.fill(text, width), flush=True)
 
 # ==== 6. The run ================================================================================
 # How do the frames become a film that runs at the right speed?
-# The main loop is run(), at the end of this section.
+# What happened to the cars? The main loop is run(), at the end of this section.
 
 def planned_length(scene: Scene, frame: int) -> float:
     """How long this frame should last, in s. With jitter, frames are irregular in a fixed way."""
@@ -387,6 +502,16 @@ def planned_length(scene: Scene, frame: int) -> float:
     from_0_to_1 = (0.618 * frame) % 1
     from_minus_1_to_1 = 2 * from_0_to_1 - 1
     return (1 + scene.jitter * from_minus_1_to_1) / scene.fps_target
+
+def planned_dt(scene: Scene, frame: int) -> float:
+    """The time step of a frame that lasts as long as planned, in s."""
+    if scene.use_observed_dt:
+        return planned_length(scene, frame)
+    return 1 / scene.fps_target
+
+def frame_settings(scene: Scene) -> tuple[float, float, bool]:
+    """The settings on which the time steps depend."""
+    return scene.fps_target, scene.jitter, scene.use_observed_dt
 
 STALL_S = 0.15  # a delay that everybody sees: people begin to notice one at about 0.1 s
 
@@ -402,300 +527,243 @@ class Pace:
     def wait(self, frames: int, t_s: float) -> tuple[float, float]:
         """Wait until the next frame is due. frames and t_s say how far the film is.
 
-        Returns how long the last frame lasted, in s, and the frame rate. The frames are due at
-        planned moments. If each frame slept for dt instead, it would last longer than dt, because
-        computing and printing take time, too.
+        Returns dt_s, the time step for this frame, and the frame rate that was observed.
+
+        The frames are due at planned moments. If each frame slept for dt instead, it would last
+        longer than dt, because computing and printing take time, too.
         """
         planned_s = planned_length(self.scene, frames + 1)
         self.due_s += planned_s
-        is_on_time = self.keys.wait_until(self.due_s, frames, t_s)  # False after a pause
+        was_timed = self.keys.wait_until(self.due_s, frames, t_s)  # not after a pause
         now_s = time.perf_counter()
         lasted_s = now_s - self.shown_s
         self.shown_s = now_s
-        if not is_on_time:
+        fps = self.scene.fps_target
+        if was_timed:
+            fps = 1 / max(lasted_s, 1e-6)  # the clock may not have ticked in between
+        # After a pause, or if the film is far behind its plan, the plan begins anew from now.
+        # Otherwise the film would race to catch up.
+        if not was_timed or now_s > self.due_s + STALL_S:
             self.due_s = now_s
-            return planned_s, self.scene.fps_target
-        # If the film is far behind its plan, the plan begins anew from now. Otherwise the film
-        # would race to catch up.
-        if now_s > self.due_s + STALL_S:
-            self.due_s = now_s
-        # A frame that lasted far too long counts as long as planned. Otherwise the car would leap.
-        fps = 1 / max(lasted_s, 1e-6)  # the clock may not have ticked in between
-        if lasted_s > planned_s + STALL_S:
-            return planned_s, fps
-        return lasted_s, fps
-
-def truth_of(scene: Scene) -> Scene:
-    """The same scene, solved exactly. A start beyond a wall is moved to the wall."""
-    return replace(scene, motion="exact", correction="replay", x_m=scene.to_track(scene.x_m))
-
-def scenes_beside(scene: Scene) -> dict[str, Scene]:
-    """The scenes of the other cars in the film, by their marks, from back to front."""
-    truth = truth_of(scene)
-    scenes = {}
-    if scene.show_methods:
-        for letter, (motion, correction) in METHODS.items():
-            scenes[letter] = replace(truth, motion=motion, correction=correction)
-    if scene.show_exact_mark:
-        scenes["o"] = truth
-    return scenes
+        # A frame with a pause or a stall counts as long as planned. Otherwise the car would leap.
+        is_long = not was_timed or lasted_s > planned_s + STALL_S
+        if self.scene.use_observed_dt and not is_long:
+            return lasted_s, fps
+        return planned_dt(self.scene, frames + 1), fps
 
 REST_M = 0.001  # 1 mm: less than a column, even in example 22
 
-class Rest:
-    """Is the car at rest at a wall? Its last frames decide.
+class Car:
+    """A car of the film: where it is, where it truly should be, and what has happened to it."""
 
-    They last 1/3 s, which is enough to see that the car does not move. But at a low rate 1/3 s is
-    only a few frames, and for so long a car in flight may be near a wall, too. So they are never
-    fewer than ten.
-    """
+    def __init__(self, scene: Scene, truth: "Car | None" = None) -> None:
+        """truth is the true car of the same scene. Without one, this car is the true car itself."""
+        self.scene = scene
+        self.truth = self if truth is None else truth
+        self.x_m, self.v_mps = scene.x_m, scene.v_mps
+        self.mark_m: float | None = None  # where its last move ended, if it met a wall
+        self.frames, self.t_s = 0, 0.0
+        self.is_drawn = True  # a car that nobody sees keeps nothing for the table after the film
+        self.collisions: list[int] = []  # the frames in which it met a wall
+        self.most_off_m = 0.0  # how far it was at most from the true car
+        self.energy = scene.energy(self.x_m, self.v_mps)  # in J/kg
+        self.first_energy = self.least_energy = self.most_energy = self.energy
+        # A car is at rest if it has lain still for 1/3 s, which is enough to see it. But a low rate
+        # has only a few frames in 1/3 s, and a car in flight may be near a wall for some frames,
+        # too. So at least ten frames are asked. A deque with a maxlen forgets the oldest of them
+        # when a new one comes.
+        self.rest_frames = max(10, round(scene.fps_target / 3))
+        self.last: deque[tuple[float, float]] = deque(maxlen=self.rest_frames)  # t_s and x_m
+        self.rest_began_s: float | None = None  # since when it lies still, if it does
 
-    def __init__(self, scene: Scene) -> None:
-        self.frames = max(10, round(scene.fps_target / 3))
-        self.last_m: deque[float] = deque(maxlen=self.frames)  # it forgets the oldest by itself
-        # How fast the acceleration makes a car in these frames:
-        self.slow_mps = abs(scene.a_mps2) * self.frames / scene.fps_target
-        # The car can rest at the wall to which it is accelerated or, without a, at any wall.
-        self.walls_m = []
-        if scene.a_mps2 <= 0:
-            self.walls_m.append(scene.left_edge_m)
-        if scene.a_mps2 >= 0:
-            self.walls_m.append(scene.right_edge_m)
+    def move(self, dt_s: float) -> None:
+        """Make a frame of dt_s. The true car moves first, as the others are compared with it."""
+        self.x_m, self.v_mps, self.mark_m = step(self.scene, self.x_m, self.v_mps, dt_s)
+        self.frames += 1
+        self.t_s += dt_s
+        if self.is_drawn:
+            self.keep()
 
-    def is_reached(self, x_m: float, v_mps: float) -> bool:
-        """Whether the car is at rest. x_m and v_mps are its state after the newest frame.
+    def keep(self) -> None:
+        """Keep what is told after the film."""
+        if self.mark_m is not None:
+            self.collisions.append(self.frames)
+        off_m = abs(self.x_m - self.truth.x_m)
+        if off_m > self.most_off_m:
+            self.most_off_m = off_m
+        self.energy = self.scene.energy(self.x_m, self.v_mps)
+        if self.energy < self.least_energy:
+            self.least_energy = self.energy
+        if self.energy > self.most_energy:
+            self.most_energy = self.energy
+        self.last.append((self.t_s, self.x_m))
+        if not self.is_at_rest():
+            self.rest_began_s = None
+        elif self.rest_began_s is None:
+            first_s, _ = self.last[0]
+            self.rest_began_s = self.t_s if self.lies_still() else first_s
 
-        Some methods never leave the car quite still. So it is enough that its mean distance from
-        the wall is small, and that it is no faster than a would make it in these frames.
-        """
-        self.last_m.append(x_m)
-        if len(self.last_m) < self.frames or abs(v_mps) > self.slow_mps:
+    def lies_still(self) -> bool:
+        """Whether it is exactly on the floor, with v = 0. So replay leaves a car that rests."""
+        return self.v_mps == 0 and self.x_m == self.scene.floor_m()
+
+    def is_at_rest(self) -> bool:
+        """Whether it rests at the floor or, without a, does not move at all."""
+        scene = self.scene
+        has_last_frames = len(self.last) == self.rest_frames
+        if scene.a_mps2 == 0:
+            _, first_m = self.last[0]
+            return has_last_frames and self.v_mps == 0 and self.x_m == first_m
+        if scene.correction == "replay":
+            return self.lies_still()  # it hops until then, however low
+        # Other methods may never leave the car quite still. So it is enough that its mean distance from
+        # the floor is small, and that it is no faster than a would make it in the last frames.
+        floor_m = scene.floor_m()
+        if abs(self.x_m - floor_m) > REST_M * self.rest_frames:
+            return False  # this distance alone makes the mean too large
+        if self.lies_still():
+            return True
+        if not has_last_frames:
             return False
-        for wall_m in self.walls_m:
-            if abs(x_m - wall_m) > REST_M * self.frames:
-                continue  # this distance alone makes the mean too large
-            distances_m = [abs(last_m - wall_m) for last_m in self.last_m]
-            if sum(distances_m) / self.frames <= REST_M:
-                return True
-        return False
+        if abs(self.v_mps) > abs(scene.a_mps2) * self.rest_frames / scene.fps_target:
+            return False
+        return fmean([abs(x_m - floor_m) for _, x_m in self.last]) <= REST_M
 
-class Shown(NamedTuple):
-    """What a film has shown."""
+    def is_beyond_a_wall(self) -> bool:
+        """Whether it was beyond a wall in all of the last frames, not only after a bounce."""
+        on_track = [x_m for _, x_m in self.last if x_m == self.scene.to_track(x_m)]
+        return not on_track
 
-    frames: int
-    collisions: list[int]  # the frames in which a collision was found
-    is_resting: bool  # whether the car was at rest in the last frame
+class UnchangedCar(Car):
+    """The + of a changed example: the car of the example as it is, in frames of its own.
 
-def run(scene: Scene, has_details: bool, max_frames: int, keys: Keys | NoKeys) -> Shown:
-    """Show the film until a key, the car at rest or max_frames ends it, and say which it was."""
-    x_m, v_mps = scene.x_m, scene.v_mps
-    other_scenes = scenes_beside(scene)
-    others = {mark: (other.x_m, other.v_mps) for mark, other in other_scenes.items()}
-    frame, t_s = 0, 0.0
-    collisions: list[int] = []
-    rest = Rest(scene)
-    is_resting = False
-    pace = Pace(scene, keys)
-    try:
-        while frame < max_frames and not (is_resting and scene.auto_off):
-            # Wait until the next frame is due.
-            length_s, fps = pace.wait(frame, t_s)
-            if keys.why_quit:
-                break
-            # Move the car and settle its collision. Then do the same for the other cars.
-            dt_s = length_s if scene.use_observed_dt else 1 / scene.fps_target
-            x_m, v_mps, mark_m = step(scene, x_m, v_mps, dt_s)
-            for mark, other_scene in other_scenes.items():
-                other_m, other_mps = others[mark]
-                other_m, other_mps, _ = step(other_scene, other_m, other_mps, dt_s)
-                others[mark] = other_m, other_mps
-            # Keep what is to be told when the film is over.
-            frame += 1
-            t_s += dt_s
-            if mark_m is not None:
-                collisions.append(frame)
-            is_resting = rest.is_reached(x_m, v_mps)
-            # Draw the frame.
-            line = render_track(scene, x_m, mark_m, others)
-            if keys.has_colours:
-                line = line.translate(COLOURED_MARKS)
-            if has_details:
-                line += details_text(x_m, v_mps, fps, others.get("o"))
-            print(line)
-    except KeyboardInterrupt:
-        keys.press(CTRL_C)
-    if keys.why_quit:
-        why = keys.why_quit
-    elif is_resting and scene.auto_off:
-        why = "the car is at rest at a wall"
-    else:
-        why = "that is the frame limit"
-    print(f"Stopped after {frame} frames, t = {t_s:.2f} s: {why}.", flush=True)
-    return Shown(frame, collisions, is_resting)
-
-# ==== 7. The truth ==============================================================================
-# What would the car really do?
-#
-# The correction replay knows it, for a frame of any length: one step() of 20 s with motion=exact
-# and correction=replay is where the car truly is after 20 s. The film's o, the chart and the map
-# rely on this. So the tests compare it with a reference that is worked out with 60 digits.
-#
-# Think of a ball in a room. The wall to which the car is accelerated is the floor, and the other
-# wall is the ceiling. h is the height of the ball above the floor. The ball flies from bounce to
-# bounce, and arrival() says when each flight ends.
-#
-# At CR < 1 each hop on the floor lasts CR times as long as the hop before. So infinitely many hops
-# take a finite time: if the first hop lasts T, all of them last T (1 + CR + CR^2 + ...), and this
-# sum is T/(1 - CR). The moment at which they end is called the Zeno point. From then on the ball
-# is at rest. Nobody can follow infinitely many hops one by one, so a ball that would rise less
-# than GRAZE_M is at rest here. The heights of the hops shrink so fast that a few hundred of them
-# are enough, as a rule.
-
-GRAZE_M = 5e-11  # far more than the round-off of a position, and less than an atom's width
-
-def next_bounce(h_m: float, rise_mps: float, g_mps2: float,
-                room_m: float) -> tuple[str, float, float]:
-    """Which wall does the ball meet next, after how many s, and at how many m/s?
-
-    h_m is the height of the ball, and rise_mps is its velocity, upwards.
+    Nobody else moves its true car, so it does.
     """
-    # To get so high takes the energy g * height. A ball may touch the ceiling at almost no speed,
-    # and then round-off would decide whether it does. So a ball that would turn less than GRAZE_M
-    # beyond the ceiling does not meet it.
-    energy_to_ceiling = g_mps2 * (room_m - h_m + GRAZE_M)
-    if rise_mps > 0 and rise_mps * rise_mps / 2 >= energy_to_ceiling:
-        flight_s, speed_mps = arrival(room_m - h_m, rise_mps, -g_mps2)
-        return "ceiling", flight_s, speed_mps
-    flight_s, speed_mps = arrival(h_m, -rise_mps, g_mps2)
-    return "floor", flight_s, speed_mps
 
-def replay(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> tuple[float, float, bool]:
-    """Follow the exact motion for dt_s, from bounce to bounce. Returns x_m, v_mps, has_bounced."""
-    if scene.a_mps2 > 0:
-        up, floor_m = -1, scene.right_edge_m  # upwards is to the left
-    else:
-        up, floor_m = 1, scene.left_edge_m  # upwards is to the right
-    room_m = scene.right_edge_m - scene.left_edge_m
-    g_mps2 = abs(scene.a_mps2)
-    h_m = up * (scene.to_track(x_m) - floor_m)
-    rise_mps = up * v_mps
-    left_s = dt_s  # the time that is left until the frame ends
-    last_wall = ""  # where it bounced last in this frame
-    while rise_mps != 0 or g_mps2 != 0:  # otherwise nothing moves the ball
-        wall, flight_s, speed_mps = next_bounce(h_m, rise_mps, g_mps2, room_m)
-        if scene.CR == 1 and wall == "floor" and last_wall == "floor":
-            # From now on all hops last equally long. Leave out those that fit in as a whole. Then
-            # less time is left than a hop lasts.
-            left_s %= flight_s
-        if flight_s > left_s:
-            break  # the frame ends before the ball gets there
-        left_s -= flight_s
-        last_wall = wall
-        if wall == "ceiling":
-            h_m, rise_mps = room_m, -scene.CR * speed_mps
-        else:
-            h_m, rise_mps = 0.0, scene.CR * speed_mps
-            if rise_mps * rise_mps / 2 <= g_mps2 * GRAZE_M:
-                return floor_m, 0.0, True  # at rest, as it cannot rise by GRAZE_M
-    h_m, rise_mps = exact(h_m, rise_mps, -g_mps2, left_s)
-    x_m = scene.to_track(floor_m + up * h_m)  # round-off must not leave it beyond a wall
-    return x_m, up * rise_mps, last_wall != ""
+    def __init__(self, scene: Scene, film_scene: Scene) -> None:
+        super().__init__(scene, Car(truth_of(scene)))
+        self.truth.is_drawn = False
+        self.has_film_frames = frame_settings(scene) == frame_settings(film_scene)
+        self.behind_s = 0.0  # how far it is behind the film
 
-# ==== 8. The law of the hops ====================================================================
-# Why do some cars hop for ever, and others lie still too soon?
-# There is no code here. Every line can be checked with pen and paper.
-#
-# A car hops on the wall to which it is accelerated. Think of this wall as a floor: up is away from
-# it, and g is the size of a. The car does not meet the other wall, and all frames last dt. Count
-# each hop in lines of the film: from a line in which a collision is found to the next such line.
-#
-#     hop     how many lines the hop has.
-#     u       the first speed of the hop, upwards. The car has it where the correction put it (*).
-#     w       the last speed of the hop, downwards. The car has it where the last move ended (0).
-#     drop    how much lower the hop ends (its last 0) than it begins (its first *), in m.
-#     motion  the number of the motion: forward 1, exact 0, backward -1.
-#
-# Here is a hop with exact + rebound. CR is 0.8, g is 2 m/s^2, dt is 0.1 s, a column is 1 cm.
-#     0:   0    |   *                    v =  0.80    The hop begins 4 cm above the floor (*):
-#     1:        |          *             v =  0.60    u = 0.80 m/s.
-#     2:        |               *        v =  0.40
-#     3:        |                  *     v =  0.20
-#     4:        |                   *    v =  0.00    In each frame the car gets g dt downwards:
-#     5:        |                  *     v = -0.20    0.20 m/s.
-#     6:        |               *        v = -0.40
-#     7:        |          *             v = -0.60
-#     8:        |   *                    v = -0.80    The last move ends 5 cm below the floor (0):
-#     9:   0    |   *                    v =  0.80    w = 1.00 m/s. Then comes the bounce.
-# The hop has 9 lines, 1 to 9, and its drop is 4 + 5 = 9 cm. To see it, type  python airtrack.py 99
-# d and then, in the same line,
-#     x_m=0.29 v_mps=0.8 a_mps2=-2 CR=0.8 motion=exact fps_target=10 m_to_px=100 width_px=50
-#
-# (1) Each frame of a hop adds g dt downwards. So from u upwards to w downwards,
-#         u + w = hop g dt                                in the drawn hop: 0.8 + 1.0 = 9 * 0.2
-# (2) How much larger is w than u? With the exact motion E does not change in flight, so w^2/2 is
-#     larger than u^2/2 by g drop. Forward and backward change E, too: in each frame by motion times
-#     g^2 dt^2/2 (section 1). So
-#         (w^2 - u^2)/2 = g drop + motion hop g^2 dt^2/2
-#     The left side is (w - u) times (w + u)/2, and by (1) that is (w - u) hop g dt/2. Divide both
-#     sides by hop g dt/2:
-#         w - u = 2 drop/(hop dt) + motion g dt
-#     We want to compare both parts. So let way = hop g dt^2/2. Then 2 drop/(hop dt) is
-#     (drop/way) g dt, and
-#         w - u = k g dt    with    k = motion + drop/way
-#     In the drawn hop way is 9 * 2 * 0.1^2/2 = 0.09 m = 9 cm. So k is 0 + 9/9 = 1.
-# (3) By (1) and (2), w is (hop + k) g dt/2 and u is (hop - k) g dt/2. With none, surface and
-#     rebound the u of the next hop is CR w. The next hop has a k of its own: call it k'. So
-#     (next - k') g dt/2 is CR (hop + k) g dt/2, and
-#         next = CR (hop + k) + k'                        in the drawn hop: 0.8 (9 + 1) + 1 = 9
-# This is the law. No step was approximate. So with none, surface and rebound it holds in every hop.
-# Here is another hop. Example 20 is exact + rebound, too. Its first hop has 14 lines, a drop of
-# 11.2 cm and a way of 14 cm, so k is 0.8. Its second hop has a drop of 1.92 cm and a way of 12 cm,
-# so k' is 0.16. The law says 0.8 (14 + 0.8) + 0.16 = 12.0 lines for the second hop, and it has 12.
-#
-# We can only foretell a hop if we know its drop. What is the average drop? A collision is found
-# at the end of a frame. On average the car met the floor half a frame before, so a hop ends w dt/2
-# below the floor. By (1), way is (u + w) dt/2. Let the hop be long, so that u and w differ little.
-#     surface    The hop begins on the floor. So the drop is w dt/2 on average, which is half a way.
-#     rebound    Let W be the w of the hop before. That hop ended W dt/2 below the floor. So this
-#                hop begins CR W dt/2 above the floor. As CR W is u, this is u dt/2. So the drop is
-#                u dt/2 + w dt/2 on average, which is one way.
-#     none       At CR = 1 the hop begins as deep as the hop before ended. So the drop is 0, on
-#                average.
-#     conserve   Here the next u is not CR w, because this correction also takes from v what the
-#                lift costs. But it is so for the speeds at the floor. So let u and w be the speeds
-#                when the car leaves the floor and when it is back. Between these two moments there
-#                is no drop, and on average they are hop frames apart.
-# Rewind and replay have no k: if they are right, so are their hops. So the average k is
-#                   none at CR = 1   surface   rebound   conserve (at the floor)
-#     forward              1          1 1/2       2          1
-#     exact                0            1/2       1          0
-#     backward            -1           -1/2       0         -1
-#
-# What does it mean? All this is an average: the start decides how late each collision is found.
-#     k > 0    The car gets too much energy. At CR = 1 it hops higher and higher: each hop is 2 k
-#              lines longer than the hop before. At CR < 1 its hops should die out. But there is a
-#              length for which the law says next = hop: k (1 + CR)/(1 - CR). If that is two lines
-#              or more, the hops end near it. (Hops of one line are rest.)
-#     k < 0    The car gets too little energy. At CR = 1 it should hop for ever, but it comes to
-#              rest (with none it is caught).
-#     k = 0    The energy is right on average.
-# For example, with exact + surface at CR = 1 a hop of 60 lines is followed by 61, then by 62 lines.
-# With exact + rebound at CR = 0.8 hops end near 1 * 1.8/0.2 = 9 lines.
-#
-# Three remarks for the curious.
-# - A hop that repeats for ever has the same drop each time, and this may be another drop than the
-#   average one. By (3), its k is hop (1 - CR)/(1 + CR). How large may k be? Before its last move
-#   the car was not below the floor. So its last 0 is at most one move deep. That makes k at most 1
-#   with exact + surface and backward + rebound, and less than 2 with exact + rebound. So backward +
-#   rebound may hop for ever, too.
-# - A ball that is dropped from rest may be back on the floor exactly at the end of a frame, and
-#   round-off may find each collision a whole frame late. Then with surface at CR = 1 the drop is
-#   one way: backward + surface has k = 0 and repeats one hop for ever. Forward + surface has k = 2.
-# - Many programs set a small speed to 0, so that things lie still. By (2), a hop that repeats ends
-#   with w = k g dt/(1 - CR), and with forward + surface k is at most 2. So with this method it is
-#   enough to set v to 0 in a bounce with a w of at most 2 g dt/(1 - CR). Do not do it at CR = 1.
+    def move(self, dt_s: float) -> None:
+        """Make the frames that end in the next dt_s of the film: one, many or none."""
+        if self.has_film_frames:
+            self.move_both(dt_s)
+            return
+        self.behind_s += dt_s
+        own_s = planned_dt(self.scene, self.frames + 1)
+        while own_s < self.behind_s + 1e-9:  # round-off: ten frames of 0.1 s are nearly 1 s
+            self.behind_s -= own_s
+            self.move_both(own_s)
+            own_s = planned_dt(self.scene, self.frames + 1)
 
-# ==== 9. The chart: speed against accuracy ======================================================
+    def move_both(self, dt_s: float) -> None:
+        """Make a frame with the car and its true car."""
+        self.truth.move(dt_s)
+        super().move(dt_s)
+
+def cars_of(scene: Scene, unchanged: Scene | None) -> dict[str, Car]:
+    """All cars that a film draws, by their marks, from back to front.
+
+    unchanged is the example as it is, if the user changed it.
+    """
+    true_car = Car(truth_of(scene))
+    cars = {}
+    if scene.show_methods:
+        for letter, method in methods_of(true_car.scene).items():
+            cars[letter] = Car(method, true_car)
+    if scene.show_exact_mark:
+        cars["o"] = true_car
+    if unchanged is not None:
+        cars["+"] = UnchangedCar(unchanged, scene)
+    cars["*"] = true_car  # if the car moves as the true car does
+    if scene != true_car.scene:
+        cars["*"] = Car(scene, true_car)
+    true_car.is_drawn = true_car in cars.values()
+    return cars
+
+def number_text(number: float) -> str:
+    """A number with four digits that count. Less than a thousandth is shown as 0."""
+    if abs(number) < 0.001:
+        return "0"
+    return f"{number:.4g}"
+
+def hops_text(collisions: list[int]) -> str:
+    """How many frames there are from bounce to bounce: the first four and the last two."""
+    hops = [str(after - before) for before, after in pairwise(collisions)]
+    if len(hops) > 6:
+        hops = [*hops[:4], "...", *hops[-2:]]
+    return " ".join(hops)
+
+def end_text(car: Car) -> str:
+    """What the car does at the end of the film."""
+    if car.rest_began_s is not None:
+        return f"rests from {car.rest_began_s:.2f} s"
+    if car.is_beyond_a_wall():
+        return "is beyond a wall"
+    return "moves"
+
+def tell_cars(cars: dict[str, Car]) -> None:
+    """Print a table with a row for each car, and a line for its hops and its end."""
+    marks = [mark for mark in "*+oabcde" if mark in cars]
+    zero = "v = 0" if cars["*"].scene.a_mps2 == 0 else "at rest on its floor"
+    print(f"                      furthest from     energy (J/kg; 0: {zero})")
+    print("                       its true car      first      least       most       last")
+    for mark in marks:
+        car = cars[mark]
+        name = method_text(car.scene)
+        off = f"{number_text(car.most_off_m)} m"
+        if mark == "o":
+            name, off = "the truth", ""
+        row = f"{mark} {name:20}{off:>13}"
+        for energy in (car.first_energy, car.least_energy, car.most_energy, car.energy):
+            row += number_text(energy).rjust(11)
+        print(row)
+    print("Frames from bounce to bounce, and the end:")
+    for mark in marks:
+        car = cars[mark]
+        row = f"{mark} at {car.scene.fps_target:.4g} FPS: "
+        if len(car.collisions) > 1:
+            row += hops_text(car.collisions) + "; "
+        print(row + end_text(car))
+
+def run(cars: dict[str, Car], has_details: bool, max_frames: int, keys: Keys | NoKeys) -> None:
+    """Show the film until a key, the car at rest or max_frames ends it, and say which it was."""
+    car = cars["*"]
+    scene = car.scene
+    pace = Pace(scene, keys)
+    # The true car moves first. It may be one of the cars, or not be drawn.
+    moving = [car.truth]
+    for each in cars.values():
+        if each is not car.truth:
+            moving.append(each)
+    why = ""
+    while not why:
+        # Wait until the next frame is due.
+        dt_s, fps = pace.wait(car.frames, car.t_s)
+        if keys.why_quit:
+            why = keys.why_quit
+            break
+        # Move the cars, and settle their collisions.
+        for each in moving:
+            each.move(dt_s)
+        # Draw the frame.
+        places_m = {mark: each.x_m for mark, each in cars.items()}
+        line = render_track(scene, places_m, car.mark_m)
+        if keys.has_colours:
+            line = line.translate(COLOURED_MARKS)
+        if has_details:
+            line += details_text(car.x_m, car.v_mps, fps, places_m.get("o"))
+        print(line)
+        # Is it over?
+        if scene.auto_off and car.rest_began_s is not None:
+            why = "the car is at rest"
+        elif car.frames >= max_frames:
+            why = "that is the frame limit"
+    print(f"Stopped after {car.frames} frames, t = {car.t_s:.2f} s: {why}.", flush=True)
+
+# ==== 7. The chart: speed against accuracy ======================================================
 # What does each method cost, and how wrong is it?
 
 SPAN_S = 20  # of simulated time: about eight bounces in example 10, enough for errors to grow
@@ -721,9 +789,9 @@ def simulate(scene: Scene, fps: int, cut: int) -> list[Sample]:
     truth = truth_of(scene)
     part = 0.0
     if cut > 0:
-        # 1/27, 4/27, ... 25/27: they are evenly spread, and none is at the edge of a frame, where
-        # it would be cut 0 again.
-        part = (3 * cut - 2) / 27
+        # Nine parts, evenly spread over the frame. None of them is 0 or 1, as this would be cut 0
+        # again: they are 1/27, 4/27, 7/27, ... 25/27.
+        part = (cut - 2 / 3) / (CUTS - 1)
     true_m, true_mps, _ = step(truth, truth.x_m, truth.v_mps, part * dt_s)
     x_m, v_mps = true_m, true_mps
     frames_a_sample = max(1, fps // 10)
@@ -745,14 +813,15 @@ def largest_error_m(scene: Scene, fps: int) -> float:
     return largest_m
 
 def cost_us(scene: Scene, fps: int) -> float:
-    """The processor time that a simulated second takes, in microseconds. Only steps count.
+    """How long the steps of a simulated second take, in microseconds.
 
     Other programs may slow this one, and nothing can speed it up. So the least of several runs is
-    nearest to the time that the processor needs.
+    nearest to the time that the steps themselves need.
     """
     dt_s = 1 / fps
     costs_s = []
-    for _ in range(max(5, 200 // fps)):
+    runs = max(5, 200 // fps)  # at a low rate a run is short, so one disturbance may spoil it
+    for _ in range(runs):
         x_m, v_mps = scene.x_m, scene.v_mps
         began_s = time.perf_counter()
         for _ in range(SPAN_S * fps):
@@ -778,8 +847,7 @@ def measure(scene: Scene) -> dict[str, list[Point]]:
     points: dict[str, list[Point]] = {letter: [] for letter in METHODS}
     for fps in CHART_FPS:
         row = f"{fps:4}"
-        for letter, (motion, correction) in METHODS.items():
-            method = replace(scene, motion=motion, correction=correction)
+        for letter, method in methods_of(scene).items():
             point = Point(fps, largest_error_m(method, fps), cost_us(method, fps))
             points[letter].append(point)
             row += f"{point.error_m:9.1e}{point.cost_us:6.0f}"
@@ -795,7 +863,7 @@ def order_text(series: list[Point]) -> str:
     At order 1 twice the rate divides the error by 2, at order 2 by 4.
     """
     last_m = series[-1].error_m
-    if last_m < 1e-9:  # this is round-off, which has no order
+    if last_m < 1e-8:  # this is round-off, which has no order
         return "none"
     doublings = math.log2(series[-4].error_m / last_m)
     return f"{doublings / 3:.1f}"
@@ -810,106 +878,110 @@ def error_column(error_m: float) -> int:
     return round(COLUMNS_A_DECADE * math.log10(error_m / LEAST_ERROR_M))
 
 def picture(points: dict[str, list[Point]], pixel_m: float) -> None:
-    """Draw the points as the film is drawn: error to the right, processor time downwards."""
-    lines: dict[int, list[str]] = {}
+    """Draw the points as the film is drawn: error to the right, cost downwards."""
+    letters: dict[tuple[int, int], str] = {}  # by row and column
     for letter, series in points.items():
         for point in series:
             row = round(ROWS_A_DECADE * math.log10(point.cost_us))
-            if row not in lines:
-                lines[row] = [" "] * (error_column(LARGEST_ERROR_M) + 1)
-            column = error_column(point.error_m)
-            if lines[row][column] in (" ", letter):
-                paint(lines[row], letter, column)
-            else:
-                paint(lines[row], "+", column)  # here stands another letter
+            place = row, error_column(point.error_m)
+            is_free = letters.get(place, letter) == letter
+            letters[place] = letter if is_free else "+"
+    rows = [row for row, _ in letters]
     pixel_column = error_column(pixel_m)
     print("one drawn pixel |".rjust(10 + pixel_column + 1))
     print("    us    <=1 um  10 um   0.1 mm  1 mm    1 cm    0.1 m   1 m     >=10 m")
-    for row in range(min(lines), max(lines) + 1):
-        line = lines.get(row, [" "] * (pixel_column + 1))
-        if line[pixel_column] == " ":
-            paint(line, "|", pixel_column)
-        row_us = 10 ** (row / ROWS_A_DECADE)
-        print(f"{row_us:6.0f}    {''.join(line).rstrip()}")
+    for row in range(min(rows), max(rows) + 1):
+        line = f"{10 ** (row / ROWS_A_DECADE):6.0f}    "
+        for column in range(error_column(LARGEST_ERROR_M) + 1):
+            behind = "|" if column == pixel_column else " "
+            line += letters.get((row, column), behind)
+        print(line.rstrip())
     print()
 
 def conclude(points: dict[str, list[Point]], pixel_m: float) -> None:
     """Answer the question: which methods stay within a pixel, and what do they cost?"""
     answers = []
-    for letter, series in points.items():
-        answer = (math.inf, f"{letter} at none of these rates")
-        for fps, error_m, us in reversed(series):
+    for letter, (motion, correction) in METHODS.items():
+        name = f"{motion} + {correction}"
+        answer = None
+        for fps, error_m, us in reversed(points[letter]):
             if error_m > pixel_m:
                 break  # no lower rate counts
-            answer = (us, f"{letter} from {fps} FPS on, for {us:.0f} us")
-        answers.append(answer)
+            answer = us, f"  {letter}  {name:18}  from {fps:4} FPS on  {us:5.0f} us"
+        if answer is not None:
+            answers.append(answer)
     answers.sort()  # by the cost, which stands first
-    texts = [text for _, text in answers]
-    say(f"Within a drawn pixel, {pixel_m:.2g} m, in all ten runs, the cheapest first: "
-        f"{'; '.join(texts)}.")
+    say(f"These stay within a drawn pixel ({pixel_m:.2g} m) in all ten runs, the cheapest first:")
+    for _, text in answers:
+        print(text)
+    if not answers:
+        print("  none at these rates")
 
 def chart(scene: Scene, title: str) -> None:
     """Measure, print the table, draw the picture and answer the question."""
     pixel_m = 1 / scene.m_to_px
-    say(f"Speed against accuracy: {title}")
+    say(f"Speed against accuracy. {title}")
     say("Which method is the cheapest that stays within a drawn pixel of the truth? Each method "
         "runs ten times for 20 simulated seconds. Error: the largest distance from the true car in "
-        "these runs, looked at every 0.1 s. Cost: processor time for a simulated second in us "
+        "these runs, looked at every 0.1 s. Cost: the time that a simulated second takes, in us "
         "(microseconds). Order: 1 if half the dt makes half the error, 2 if it makes a quarter. "
         "Method e is the truth's own method, so its error can be nothing but round-off.")
     points = measure(scene)
     picture(points, pixel_m)
-    say("Error to the right, cost downwards: the best are in the upper left. Where letters meet "
-        "there is a +.")
+    legend = [f"{letter}: {method_text(method)}" for letter, method in methods_of(scene).items()]
+    say(f"{', '.join(legend)}. Error to the right, cost downwards: the best are in the upper left. "
+        "Where letters meet there is a +.")
     conclude(points, pixel_m)
+    say(f"Next: {PYTHON} airtrack.py stability")
 
-# ==== 10. The map: where methods fail ===========================================================
+# ==== 8. The map: where methods fail ============================================================
 # Which method fails at which frame rate, and how?
 
 MAP_FPS = [1, 2, 5, 10, 30, 60, 120, 240, 1000]
-VERDICTS = {  # from the worst to the best
+VERDICTS = {  # from the worst to the best. W is not for one run, but for ten: see cell().
     "X": "out: further beyond a wall than the track is long",
     "S": "stuck: beyond the same wall all through the last 5 s",
-    "W": "in some runs as G, in others as L",
-    "G": "too much energy, by over 1 % on average over the last 5 s",
-    "L": "too little energy, by over 1 % on average over the last 5 s",
-    "P": "the energy is right, but the car is over a drawn pixel off",
+    "H": "hops or hovers, over 1 mm off in the last 5 s, although the true car rests",
+    "W": "as G in some runs, as L in others",
+    "G": "over a pixel off, with over 1 % too much energy on average over the last 5 s",
+    "L": "over a pixel off, with over 1 % too little energy on average over the last 5 s",
+    "P": "over a pixel off, with the right energy",
     "-": "within a drawn pixel of the truth",
 }
 FROM_WORST_TO_BEST = list(VERDICTS)
 
 def verdict(scene: Scene, fps: int, cut: int) -> str:
-    """The letter of one run: the first of X, S, -, G, L and P that fits. W needs several runs."""
+    """The letter of one run: X, S, H, G, L, P or -. (W needs several runs.)"""
     samples = simulate(scene, fps, cut)
-    last_samples = samples[len(samples) * 3 // 4:]  # those of the last 5 of 20 s
+    late = len(samples) * 3 // 4  # here begin the samples of the last 5 of 20 s
     track_m = scene.right_edge_m - scene.left_edge_m
     # X: how far beyond a wall was the car?
-    beyond_m = [abs(sample.x_m - scene.to_track(sample.x_m)) for sample in samples]
-    if max(beyond_m) > track_m:
+    # (Positive numbers are beyond the right wall, negative ones beyond the left wall.)
+    beyond_m = [sample.x_m - scene.to_track(sample.x_m) for sample in samples]
+    if max(beyond_m) > track_m or min(beyond_m) < -track_m:
         return "X"
-    # S: which walls was it beyond in the last 5 s? (None stands for the track.)
-    walls = {scene.wall_passed(sample.x_m) for sample in last_samples}
-    if len(walls) == 1 and None not in walls:
+    # S: was it beyond the same wall all through the last 5 s?
+    if min(beyond_m[late:]) > 0 or max(beyond_m[late:]) < 0:
         return "S"
-    # -: how far from the true car was it?
+    # H: did the true car rest all through the last 5 s, but not this one?
     errors_m = [abs(sample.x_m - sample.true_m) for sample in samples]
+    has_true_rest = all(sample.true_mps == 0 for sample in samples[late:])
+    if has_true_rest and max(errors_m[late:]) > REST_M:
+        return "H"
+    # G, L and P are for a car that is over a drawn pixel off.
     if max(errors_m) <= 1 / scene.m_to_px:
         return "-"
     # G or L: how much more energy than the true car had it? 100 % is its energy at the start, and
     # what a could add on the whole length of the track.
     all_energy = scene.v_mps**2 / 2 + abs(scene.a_mps2) * track_m
-    gain = fmean([energy_gain(scene, sample) for sample in last_samples])
+    energies = [scene.energy(sample.x_m, sample.v_mps) for sample in samples[late:]]
+    true_energies = [scene.energy(sample.true_m, sample.true_mps) for sample in samples[late:]]
+    gain = fmean(energies) - fmean(true_energies)
     if gain > 0.01 * all_energy:
         return "G"
     if gain < -0.01 * all_energy:
         return "L"
     return "P"
-
-def energy_gain(scene: Scene, sample: Sample) -> float:
-    """How much more energy the car has than the true car: the difference of v^2/2 - a x."""
-    energy = sample.v_mps**2 / 2 - scene.a_mps2 * sample.x_m
-    true_energy = sample.true_mps**2 / 2 - scene.a_mps2 * sample.true_m
-    return energy - true_energy
 
 def cell(letters: list[str]) -> str:
     """One letter for ten runs: the worst, as a small letter if only some runs are so bad."""
@@ -922,331 +994,383 @@ def cell(letters: list[str]) -> str:
 
 def stability(scene: Scene, title: str) -> None:
     """Print the map: a row for each method, a column for each rate, a letter for ten runs."""
-    say(f"Stability: {title}")
+    say(f"Stability. {title}")
     say("Which methods are right, and from which frame rate on? Each runs ten times for 20 "
-        "simulated seconds. 100 % of the energy is v^2/2 at the start + |a| * length of the track.")
-    rates = "".join([str(fps).rjust(6) for fps in MAP_FPS])
+        "simulated seconds. A capital letter: so in all ten runs. A small letter: so in some, and "
+        "better in the others. 100 % of the energy is v^2/2 at the start + |a| * length of the "
+        "track. Examples 19 and 20 say why a car hops on (H), gains energy (G) or loses it (L).")
     print()
-    print(" " * 20 + rates + " FPS")
+    print(" " * 20 + "".join([str(fps).rjust(6) for fps in MAP_FPS]) + " FPS")
     for motion in MOTIONS:
         for correction in ALL_CORRECTIONS:
             if correction in EXACT_ONLY and motion != "exact":
                 continue
             method = replace(scene, motion=motion, correction=correction)
-            row = f"{motion} + {correction}".ljust(20)
+            row = method_text(method).ljust(20)
             for fps in MAP_FPS:
                 letters = [verdict(method, fps, cut) for cut in range(CUTS)]
                 row += cell(letters).rjust(6)
             print(row, flush=True)
     for letter, meaning in VERDICTS.items():
         print(f"{letter}  {meaning}")
-    print("A small letter: only some of the ten runs are so bad.")
 
-# The lesson ends here.
+# ==== 9. The law: why the map has its H, G and L ================================================
+# Why do some cars hop for ever, and why do others lie still too soon?
+# There is no code here. You need pen and paper.
+#
+# A car hops on the wall to which it is accelerated, as a ball hops on a floor. Call this wall the
+# floor. Up is away from the floor, and g is the size of a. All frames last dt. The car does not
+# meet the other wall.
+#
+# A hop lasts from a frame in which a collision is found to the next such frame. Count it in frames.
+# In truth each hop lasts CR times as long as the hop before. With surface and rebound it does not.
+# For these two corrections the law is
+#         next = CR (hop + k) + k'
+# Here hop and next are the lengths of a hop and of the hop after it, both in frames. The number k
+# belongs to the hop, and k' belongs to the next hop. If both were 0, this would be the truth. So k
+# says how wrong a hop is. The law has three steps. They begin with a drawn hop.
+#
+# Here is a hop with exact + surface. CR is 1, g is 4 m/s^2, dt is 0.1 s, and a column is 1 cm.
+#     0:        *                   The hop begins on the floor (*), with u = 1.1 m/s upwards.
+#     1:        |        *
+#     2:        |             *
+#     3:        |              *
+#     4:        |           *
+#     5:        |    *
+#     6:  0     *                   The hop ends 6 cm lower (0), with w = 1.3 m/s downwards.
+# This hop has 6 frames. The drop of a hop is how much lower it ends (0) than it begins (*). Here
+# the drop is 6 cm.
+#
+# (1) Each frame of a hop adds g dt to the speed downwards. So
+#         u + w = hop g dt                            here 1.1 + 1.3 = 6 * 0.4
+# (2) Why is w larger than u? There are two reasons. The drop adds the energy g drop. And the motion
+#     adds s g^2 dt^2/2 in each frame, where s is 1 for forward, 0 for exact and -1 for backward
+#     (section 1). So
+#         (w^2 - u^2)/2 = g drop + hop s g^2 dt^2/2   here (1.69 - 1.21)/2 = 4 * 0.06 + 0
+#     The left side is (w - u) (u + w)/2. By (1) that is (w - u) hop g dt/2. Divide both sides by
+#     hop g dt/2, and write way for the length hop g dt^2/2. Then
+#         w - u = k g dt    with    k = s + drop/way
+#     Here the way is 6 * 4 * 0.01/2 m = 12 cm. So k is 0 + 6/12 = 1/2, and 1.3 - 1.1 = 1/2 * 0.4.
+# (3) Add (1) and (2), or subtract them:
+#         w = (hop + k) g dt/2    and    u = (hop - k) g dt/2
+#     The bounce makes the u of the next hop from this w: it is CR w. So (next - k') g dt/2 is
+#     CR (hop + k) g dt/2. Divide by g dt/2, and this is the law. In the film of the drawn hop the
+#     next hop has 7 frames, its drop is 7 cm, and its way is 14 cm. So k' is 1/2, too:
+#         next = CR (hop + k) + k'                    here 7 = 1 (6 + 1/2) + 1/2
+#
+# How large is k? Take exact + surface. The hop begins on the floor. After n frames the car is
+# n dt (u - n g dt/2) above the floor. The hop ends with the first frame after which this is below
+# 0. So u is less than hop g dt/2. One frame earlier the car was not below the floor. So u is at
+# least (hop - 1) g dt/2. By (3), u is (hop - k) g dt/2. Therefore k is more than 0 and at most 1.
+# The other methods are like it. With rebound a hop begins above the floor, so its drop may be twice
+# as large. In every hop of two frames or more, at any CR, k is between these bounds:
+#
+#                  surface     rebound
+#     forward      1 to 2      1 to 3
+#     exact        0 to 1      0 to 2
+#     backward    -1 to 0     -1 to 1
+#
+# What does k do?
+#     k > 0   The car gets too much energy. At CR = 1 each hop is longer than the hop before, by
+#             k + k' frames (G in the map). At CR < 1 the hops should die out, but many do not. Put
+#             next = hop and k' = k into the law: a hop of k (1 + CR)/(1 - CR) frames repeats for
+#             ever, if that is two frames or more (H). With exact + rebound at CR = 0.8 and k = 1,
+#             it has 1 * 1.8/0.2 = 9 frames, as in example 20. With rebound the hops may also end
+#             in a cycle, as 7 7 8 9 9 8.
+#     k < 0   The car gets too little energy. At CR = 1 it should hop for ever, but its hops get
+#             shorter, and it comes to rest (L).
+#     k = 0   The hop has the right energy.
+# So forward and exact, with surface or rebound, give too much energy. Backward + surface gives too
+# little. (Or just enough, if k is 0 in every hop. This happens to some balls that are dropped from
+# rest.) Backward + rebound may give too much in one hop and too little in the next, so its car
+# wanders. Which k a car gets within the bounds depends on its start, because the start decides how
+# late in a frame the car meets the floor.
 
-# ==== 11. Printing ==============================================================================
-# What is said before and after a film?
+# The physics ends here.
 
-PYTHON = os.path.basename(sys.executable).removesuffix(".exe")  # python3 where there is no python
+# ==== 10. Before and after a film ===============================================================
+# What is said before a film, and what after it?
 
-def say(text: str) -> None:
-    """Print a paragraph, as wide as the terminal but no wider than is good to read."""
-    width = min(100, shutil.get_terminal_size().columns)
-    print(textwrap.fill(text, width), flush=True)
+class Wanted(NamedTuple):
+    """What the user wants."""
 
-def start_text(scene: Scene) -> str:
-    """Car and track, by the names that one may type. (A number may have ten digits.)"""
-    return (f"x_m={scene.x_m:.10g} v_mps={scene.v_mps:.10g} a_mps2={scene.a_mps2:.10g} "
-            f"CR={scene.CR:.10g}, walls at {scene.left_edge_m:.10g} and "
-            f"{scene.right_edge_m:.10g} m")
+    command: str  # film, chart or stability
+    number: int  # of the example
+    changes: dict[str, Any]  # the settings that replace the example's own
+    typed: list[str]  # the same, as they were typed
+    has_details: bool
+    is_fast: bool
+    max_frames: int
 
-def scene_text(scene: Scene) -> str:
-    """The whole scene but for its drawing: two scenes with the same text move alike."""
-    text = (f"{start_text(scene)}; {scene.motion} + {scene.correction}, "
-            f"{scene.fps_target:.10g} FPS")
-    if scene.jitter:
-        text += f", jitter={scene.jitter:.10g}"
-    if scene.use_observed_dt:
-        text += ", use_observed_dt=True"
+def unchanged_of(wanted: Wanted, scene: Scene) -> Scene | None:
+    """The scene of the example as it is, if the car of this scene moves otherwise."""
+    if wanted.number not in EXAMPLES:
+        return None
+    unchanged = scene_of(EXAMPLES[wanted.number].settings)
+    if scene_text(unchanged) == scene_text(scene):
+        return None
+    return unchanged
+
+def say_before(scene: Scene, wanted: Wanted) -> None:
+    """Say which scene the film is of: its title, what the user changed, and all that moves it."""
+    title = f"{OWN_SCENE.title} (the examples are 0 to {max(EXAMPLES)})"
+    if wanted.number in EXAMPLES:
+        title = f"Example {wanted.number}: {EXAMPLES[wanted.number].title}"
+    say(", ".join([title, *wanted.typed]))
+    text = scene_text(scene)
     if scene.show_methods:
-        for letter, (motion, correction) in METHODS.items():
-            text += f"; {letter}: {motion} + {correction}"
-    return text
+        for letter, method in methods_of(truth_of(scene)).items():
+            text += f"; {letter}: {method_text(method)}"
+    say(text)
 
-def fitted(scene: Scene, has_details: bool) -> Scene:
-    """The scene, drawn smaller if its lines are wider than the terminal."""
-    columns = shutil.get_terminal_size().columns
-    if has_details:
-        truth = (0.0, 0.0) if scene.show_exact_mark else None
-        columns -= len(details_text(-9999.99, -9999.99, scene.fps_target, truth))
-    columns = max(columns, 10)  # the least that a scene may have
-    if columns >= scene.width_px or not sys.stdout.isatty():
-        return scene
-    # What was in the last column must stay in the last column. The first column has number 0.
-    m_to_px = scene.m_to_px * (columns - 1) / (scene.width_px - 1)
-    return replace(scene, width_px=columns, m_to_px=max(m_to_px, 0.001))
-
-def hops_text(collisions: list[int]) -> str:
-    """How long the hops of the * were: the first four and the last two, if there are more."""
-    hops = [str(after - before) for before, after in pairwise(collisions)]
-    if len(hops) > 6:
-        hops = [*hops[:4], "...", *hops[-2:]]
-    hops_in_words = " ".join(hops)
-    return f"The hops of the *, in lines from collision to collision: {hops_in_words}."
-
-def advice(scene: Scene, shown: Shown) -> str:
-    """What may be said of a scene of the user's own, after its film."""
-    text = "In hops of 1 line the car lies on a wall, or is caught beyond it."
-    is_cured = scene.motion == "exact" and scene.correction in ("conserve", "rewind", "replay")
-    if scene.a_mps2 != 0 and scene.CR < 1 and not shown.is_resting and not is_cured:
-        text += " " + OWN_SCENE.seen
-    return text
-
-def film(scene: Scene, title: str, options: argparse.Namespace) -> None:
+def film(scene: Scene, wanted: Wanted) -> None:
     """Say what to look for, leave time to guess, show the film, and say what was to be seen."""
-    number = options.number
-    example = EXAMPLES.get(number, OWN_SCENE)
-    is_changed = number in EXAMPLES and scene_text(scene) != scene_text(scene_of(example, {}))
-    question = example.look_for
-    if is_changed:
-        question = f"What differs from example {number} as it is?"
-    has_details = options.details or number == 0  # the first film should show what there is
-    say(title)
-    say(scene_text(scene))
+    example = EXAMPLES.get(wanted.number, OWN_SCENE)
+    unchanged = unchanged_of(wanted, scene)
+    if unchanged is not None:
+        example = CHANGED
+        scene = replace(scene, show_exact_mark=True)
+    has_details = wanted.has_details or wanted.number == 0  # the first film shows what there is
+    say_before(scene, wanted)
     view = fitted(scene, has_details)
     if view.width_px < scene.width_px:
         say(f"The picture is drawn {view.width_px} columns wide, to fit into the terminal.")
-    taking = nullcontext(NoKeys()) if options.fast else taken_keys()
-    with taking as keys:
-        try:
-            for text in keys.texts_before(question):
-                say(text)
-            keys.leave_time()
-        except KeyboardInterrupt:
-            keys.press(CTRL_C)  # it begins the film
+    cars = cars_of(view, unchanged)
+    with nullcontext(NoKeys()) if wanted.is_fast else taken_keys() as keys:
+        for text in keys.texts_before(example.look_for):
+            say(text)
+        keys.leave_time()
         print()
-        shown = run(view, has_details, options.frames, keys)
-    if not options.fast and shown.frames > 0:
-        tell(scene, number, is_changed, shown)
+        run(cars, has_details, wanted.max_frames, keys)
+    if cars["*"].frames == 0:
+        return
+    print()
+    tell_cars(cars)
+    if not wanted.is_fast:
+        print()
+        say(example.seen or advice(cars["*"], wanted))
+        say_next(wanted.number)
 
-def tell(scene: Scene, number: int, is_changed: bool, shown: Shown) -> None:
-    """Say after a film what was to be seen, and what to type next."""
-    if len(shown.collisions) > 2:
-        say(hops_text(shown.collisions))
-    following = str(number + 1)
-    if is_changed:
-        say(f"Example {number} as it is: {PYTHON} airtrack.py {number}")
-    elif number in EXAMPLES:
-        say(EXAMPLES[number].seen)
+def advice(car: Car, wanted: Wanted) -> str:
+    """Is the car's method right for its scene? If not, what may be tried?"""
+    scene = car.scene
+    text = f"The * was up to {number_text(car.most_off_m)} m from its true car"
+    if car.most_off_m <= 1 / scene.m_to_px:
+        text += ", less than a column. So its method is right for this film."
     else:
-        say(advice(scene, shown))
-        following = "-h"
+        text += ", more than a column."
+        cures = ["conserve", "rewind", "replay"]  # each is right in more frames than the one before
+        if not scene.starts_on_track():
+            cures = ["conserve"]
+        if scene.motion == "exact" and scene.correction in cures:
+            cures = cures[cures.index(scene.correction) + 1:]
+        if cures:
+            text += f" Try motion=exact and correction={' or '.join(cures)}, both at once."
+    words = [word for word in wanted.typed if word.partition("=")[0] in OF_THE_TRACK]
+    asked = " ".join(["stability", str(wanted.number), *words])
+    return f"{text} Which methods are right for this scene? {PYTHON} airtrack.py {asked}"
+
+def say_next(number: int) -> None:
+    """Say what to type after this film."""
+    following = str(number + 1)
     if number == max(EXAMPLES):
         following = "chart"
+    elif number not in EXAMPLES:
+        following = "-h"
     say(f"Next: {PYTHON} airtrack.py {following}")
 
-# ==== 12. Checks ================================================================================
+# ==== 11. Checks ================================================================================
 # Which scenes are allowed?
 
-SETTINGS = {setting.name: setting for setting in fields(Scene)}
+SETTINGS = {each.name: each for each in fields(Scene)}
 
-# Values that people type because other programs have them, and what they are called here:
-OTHER_WORDS = {"motion=euler": "forward or backward", "correction=exact": "rewind or replay"}
-
-def allowed_text(setting: Field[Any]) -> str:
+def allowed_text(name: str) -> str:
     """What a setting may be, in words."""
-    metadata = setting.metadata
-    if "choices" in metadata:
-        return " or ".join([str(choice) for choice in metadata["choices"]])
-    kind = "a number"
-    if isinstance(setting.default, int):
-        kind = "a whole number"
-    return f"{kind} from {metadata['least']} to {metadata['largest']} {metadata['unit']}".rstrip()
+    allowed = SETTINGS[name].metadata
+    if "choices" in allowed:
+        return " or ".join([str(choice) for choice in allowed["choices"]])
+    kind = "a whole number" if isinstance(SETTINGS[name].default, int) else "a number"
+    return f"{kind} from {allowed['least']} to {allowed['largest']}"
 
-def check_value(name: str, value: Any) -> None:
-    """Raise ValueError if the setting of this name may not have this value."""
-    setting = SETTINGS[name]
-    metadata = setting.metadata
-    if "choices" in metadata:
-        is_allowed = value in metadata["choices"]
-    elif isinstance(value, (int, type(setting.default))):
-        is_allowed = metadata["least"] <= value <= metadata["largest"]
-    else:
-        is_allowed = False
-    if not is_allowed:
-        text = f"{name} must be {allowed_text(setting)}, not {value}"
-        typed = f"{name}={value}"
-        if typed in OTHER_WORDS:
-            text += f": did you mean {OTHER_WORDS[typed]}?"
-        elif "," in typed:
-            with_a_point = str(value).replace(",", ".")
-            text += f": write {with_a_point}"
-        raise ValueError(text)
+def is_allowed(name: str, value: Any) -> bool:
+    """Whether the setting of this name may have this value."""
+    allowed = SETTINGS[name].metadata
+    kind = type(SETTINGS[name].default)
+    is_of_kind = type(value) is kind or (kind is float and type(value) is int)  # 1 is a number, too
+    if "choices" in allowed:
+        return is_of_kind and value in allowed["choices"]
+    return is_of_kind and bool(allowed["least"] <= value <= allowed["largest"])
 
 def check(scene: Scene) -> None:
     """Raise ValueError for a scene that is not allowed."""
     for name in SETTINGS:
-        check_value(name, getattr(scene, name))
+        value = getattr(scene, name)
+        if not is_allowed(name, value):
+            raise ValueError(f"{name} must be {allowed_text(name)}, not {value}")
     left_m, right_m = scene.left_edge_m, scene.right_edge_m
     if right_m - left_m < 0.01 - 1e-9:  # round-off: 2.21 - 2.2 is a little less than 0.01
         raise ValueError("right_edge_m must be at least 0.01 m to the right of left_edge_m, not "
                          f"{right_m} and {left_m}")
-    if scene.correction in EXACT_ONLY:
-        needed_by = f"with correction={scene.correction}"
-        if scene.motion != "exact":
-            raise ValueError(f"motion must be exact {needed_by}, not {scene.motion}: choose "
-                             "motion=exact or another correction")
-        if scene.wall_passed(scene.x_m) is not None:
-            raise ValueError(f"x_m must be from {left_m} to {right_m} {needed_by}, not {scene.x_m}")
+    needed_by = f"with correction={scene.correction}"
+    if scene.correction in EXACT_ONLY and scene.motion != "exact":
+        raise ValueError(f"motion must be exact {needed_by}, not {scene.motion}: choose "
+                         "motion=exact or another correction")
+    if scene.correction in EXACT_ONLY and not scene.starts_on_track():
+        raise ValueError(f"x_m must be from {left_m} to {right_m} {needed_by}, not {scene.x_m}")
 
-def scene_of(example: Example, changes: dict[str, Any]) -> Scene:
-    """The scene of an example, with what the user changed. Raises ValueError."""
-    settings = example.settings | changes
-    scene = Scene(**settings)
-    if "m_to_px" not in settings and scene.right_edge_m > 0:
-        # Nobody chose a zoom: take one that shows the right wall.
-        widest = (scene.width_px - 1) / scene.right_edge_m
-        scene = replace(scene, m_to_px=min(scene.m_to_px, widest))
-    return scene
-
-# ==== 13. The command line ======================================================================
+# ==== 12. The command line ======================================================================
 # What does the user want?
 
-COMMANDS = ["chart", "stability"]
-# The names that a user may type, with the words that describe them:
-NAMES = {"chart": "speed against accuracy", "stability": "the map: where methods fail",
-         "--fast": "no waiting", "--frames": "stop after N frames", "--help": "-h"}
-for each in SETTINGS.values():
-    NAMES[each.name] = f"{each.metadata['meaning']}: {allowed_text(each)}"
+FRAMES = 50_000  # then a film ends that nobody stops
+COMMANDS = {"chart": chart, "stability": stability}
 
-def unknown(word: str) -> str:
-    """The error text for a word that means nothing, with the names that may have been meant."""
-    start = word.partition("=")[0].lower()
-    near = [name for name in NAMES if start in name.lower().split("_")]
-    if len(start) > 1 or not near:  # "a" is a word in many descriptions
-        for name, description in NAMES.items():
-            if name not in near and start in re.findall("[a-z]+", description.lower()):
-                near.append(name)
-    if not near:
-        near = difflib.get_close_matches(start, NAMES, n=1)
-    if re.fullmatch("[0-9]+d", start):
-        near = [f"{start[:-1]} d"]
-    text = (f"unknown word {word}: it must be the number of an EXAMPLE, d, chart, stability, an "
-            "option or NAME=VALUE without spaces")
-    if near:
-        text += f"; did you mean {' or '.join(near[:3])}?"
-    return text
+# The commands use these settings alone. They choose methods and frame rates themselves.
+OF_THE_TRACK = ["x_m", "v_mps", "a_mps2", "left_edge_m", "right_edge_m", "CR", "m_to_px"]
+
+# What people type because other programs have it, and what it is called here:
+OTHER_NAMES = {"fps": "fps_target", "dt": "fps_target", "g": "a_mps2", "gravity": "a_mps2",
+               "a": "a_mps2", "x": "x_m", "h": "x_m", "height": "x_m", "v": "v_mps",
+               "speed": "v_mps", "zoom": "m_to_px", "e": "CR"}
+
+def converted(name: str, text: str) -> Any:
+    """The value that a text stands for or, if the setting has no such value, the text itself."""
+    kind: Any = type(SETTINGS[name].default)
+    if kind is bool:
+        return {"true": True, "false": False}.get(text.lower(), text)
+    try:
+        return kind(text)
+    except ValueError:
+        return text
 
 def value_of(name: str, text: str) -> Any:
     """The value of a setting, from what a user typed after NAME=. Raises ValueError."""
-    kind: Any = type(SETTINGS[name].default)
-    value: Any = text
-    if kind is bool:
-        value = {"true": True, "false": False}.get(text.lower(), text)
-    else:
-        with suppress(ValueError):  # what is no number stays a text, which check_value refuses
-            value = kind(text)
-    check_value(name, value)
-    return value
+    value = converted(name, text)
+    if is_allowed(name, value):
+        return value
+    fault = f"{name} must be {allowed_text(name)}, not {text}"
+    with_point = text.replace(",", ".")
+    if is_allowed(name, converted(name, with_point)):
+        fault += f": write {name}={with_point}"
+    raise ValueError(fault)
 
-def wanted(argv: list[str] | None) -> argparse.Namespace:
-    """What the command line asks for: help, command, number, changes, details, fast and frames.
+def unknown(words: list[str]) -> str:
+    """The error text for words of which the first means nothing. What may have been meant?"""
+    word, *following = words
+    name, _, text = word.replace(":", "=").partition("=")
+    if name in SETTINGS:  # CR 0.7, CR = 0.7 or CR:0.7
+        value = "VALUE"
+        for each in [text, *following]:
+            if is_allowed(name, converted(name, each)):
+                value = each
+                break
+        return f"unknown word {word}: write {name}={value}, without spaces"
+    hints = OTHER_NAMES | {each.lower(): each for each in [*SETTINGS, *COMMANDS]}
+    cutoff = 1.0 if len(name) == 1 else 0.6  # a single letter is like too many names
+    near = difflib.get_close_matches(name.lower(), hints, n=1, cutoff=cutoff)
+    if not near:
+        return f"unknown word {word}: -h lists all that there are"
+    hint = hints[near[0]]
+    if hint in SETTINGS:
+        hint += "=VALUE"
+    return f"unknown word {word}: did you mean {hint}?"
 
-    Raises ValueError or argparse.ArgumentError for what is wrong.
-    """
-    parser = argparse.ArgumentParser(add_help=False, allow_abbrev=False, exit_on_error=False)
-    parser.add_argument("words", nargs="*")
-    parser.add_argument("-h", "--help", action="store_true")
-    parser.add_argument("-d", "-D", dest="details", action="store_true")
-    parser.add_argument("--fast", action="store_true")
-    parser.add_argument("--frames", type=int)
-    options, others = parser.parse_known_intermixed_args(argv)
-    commands, numbers, changes = [], [], {}
-    for word in [*options.words, *others]:
-        name, equals, text = word.partition("=")
+def epilog() -> str:
+    """What -h shows at its end: the examples, the methods and the settings."""
+    lines = ["examples (any other whole number is for a scene of your own):"]
+    for number, example in EXAMPLES.items():
+        lines.append(f"  {number:2}  {example.title}")
+    lines += ["", "motions and corrections:"]
+    for name, method in [*MOTIONS.items(), *CORRECTIONS.items(), ("replay", replay)]:
+        first_line, *_ = str(method.__doc__).splitlines()
+        row = f"  {name:9} {first_line}"
+        lines.append(textwrap.fill(row, 80, subsequent_indent=" " * 12))
+    lines += ["", "settings: default, meaning and what is allowed"]
+    for name, each in SETTINGS.items():
+        row = f"  {name:20}{each.default!s:9}{each.metadata['meaning']} ({allowed_text(name)})"
+        lines.append(textwrap.fill(row, 80, subsequent_indent=" " * 31))
+    return "\n".join(lines)
+
+def make_parser() -> argparse.ArgumentParser:
+    """What argparse needs to know of the command line. It adds -h by itself."""
+    parser = argparse.ArgumentParser(
+        prog="airtrack.py", description=__doc__, epilog=epilog(),
+        formatter_class=argparse.RawDescriptionHelpFormatter)  # it leaves our lines as they are
+    parser.add_argument("words", nargs="*", metavar="WORD", help="see above")
+    parser.add_argument("-d", "-D", dest="details", action="store_true", help="as the word d")
+    parser.add_argument("--fast", action="store_true",
+                        help="no waiting, no keys and no colours: for a pipe or a file")
+    parser.add_argument("--frames", type=int, metavar="N", default=FRAMES,
+                        help=f"stop after N frames; without it, after {FRAMES}")
+    return parser
+
+def read_command_line(parser: argparse.ArgumentParser, argv: list[str]) -> Wanted:
+    """What the words and options of the command line ask for. Raises ValueError."""
+    options = parser.parse_intermixed_args(argv)
+    commands, numbers, changes, typed = [], [], {}, []
+    for place, word in enumerate(options.words):
+        name, _, text = word.partition("=")
         if word in ("d", "D"):
             options.details = True
         elif word in COMMANDS:
             commands.append(word)
         elif word.removeprefix("-").isdecimal():
             numbers.append(int(word))
-        elif name in SETTINGS and equals:
+        elif name in SETTINGS and text:
             changes[name] = value_of(name, text)
+            typed.append(word)
         else:
-            raise ValueError(unknown(word))
+            raise ValueError(unknown(options.words[place:]))
     if len(commands) > 1 or len(numbers) > 1:
         raise ValueError(f"one command and one EXAMPLE at a time, not {commands + numbers}")
-    if commands and (options.details or options.fast or options.frames is not None):
-        raise ValueError(f"d, --fast and --frames are for a film, not for {commands[0]}")
-    if options.frames is None:
-        options.frames = 50_000
+    command, number = "film", 0
+    if commands:
+        command, number = commands[0], 10
+        useless = [name for name in changes if name not in OF_THE_TRACK]
+        if options.details or options.fast or options.frames != FRAMES:
+            useless.append("d, --fast or --frames")
+        if useless:
+            raise ValueError(f"{command} takes no {useless[0]}: it chooses methods and frame rates "
+                             f"itself, and takes an EXAMPLE and {', '.join(OF_THE_TRACK)}")
+    if numbers:
+        number = numbers[0]
     if options.frames < 1:
         raise ValueError(f"--frames N must be a whole number from 1 up, not {options.frames}")
-    options.command = commands[0] if commands else "film"
-    options.number = 10 if commands else 0
-    if numbers:
-        options.number = numbers[0]
-    options.changes = changes
-    return options
+    return Wanted(command, number, changes, typed, options.details, options.fast, options.frames)
 
-def print_manual() -> None:
-    """Print what -h shows: the usage, the examples and the settings."""
-    print(__doc__)
-    print("Examples (any other whole number is for a scene of your own):")
-    for number, example in EXAMPLES.items():
-        print(f"  {number:2}  {example.title}")
-    print("\nSettings: default, meaning and what is allowed")
-    for name, setting in SETTINGS.items():
-        meaning = setting.metadata["meaning"]
-        row = f"  {name:20}{setting.default!s:9}{meaning} ({allowed_text(setting)})"
-        print(textwrap.fill(row, 80, subsequent_indent=" " * 31))
+def scene_wanted(wanted: Wanted) -> Scene:
+    """The scene that the user wants. Raises ValueError."""
+    settings = EXAMPLES.get(wanted.number, OWN_SCENE).settings | wanted.changes
+    if wanted.command not in COMMANDS:
+        return scene_of(settings)
+    settings = {name: value for name, value in settings.items() if name in OF_THE_TRACK}
+    return truth_of(scene_of(settings))  # on the track, wherever the car starts
 
-def title_of(number: int, changes: dict[str, Any]) -> str:
-    """The title of an example, and what the user changed."""
-    title = f"{OWN_SCENE.title} (the examples are 0 to {max(EXAMPLES)})"
-    if number in EXAMPLES:
-        title = f"Example {number}: {EXAMPLES[number].title}"
-    for name, value in changes.items():
-        title += f", {name}={value}"
-    return title
-
-def scene_wanted(options: argparse.Namespace) -> Scene:
-    """The scene for what the options ask for. Raises ValueError."""
-    example = EXAMPLES.get(options.number, OWN_SCENE)
-    if options.command == "film":
-        return scene_of(example, options.changes)
-    # Chart and map choose motion and correction themselves, and start on the track.
-    any_method = {"motion": "exact", "correction": "none"}
-    return truth_of(scene_of(example, options.changes | any_method))
-
-def obey(options: argparse.Namespace, scene: Scene) -> None:
-    """Do what the user asks for."""
-    title = title_of(options.number, options.changes)
-    if options.help:
-        print_manual()
-    elif options.command == "chart":
-        chart(scene, f"{title}. {start_text(scene)}")
-        say(f"Next: {PYTHON} airtrack.py stability")
-    elif options.command == "stability":
-        stability(scene, f"{title}. {start_text(scene)}")
+def obey(parser: argparse.ArgumentParser, argv: list[str]) -> None:
+    """Do what the command line asks for. Wrong input ends the program here, with status 2."""
+    try:
+        wanted = read_command_line(parser, argv)
+        scene = scene_wanted(wanted)
+    except ValueError as fault:
+        parser.error(str(fault))
+    if wanted.command in COMMANDS:
+        COMMANDS[wanted.command](scene, f"Example {wanted.number}: {start_text(scene)}")
     else:
-        film(scene, title, options)
-
-def refuse(fault: Exception) -> int:
-    """Print an error as one line. Returns the exit status for it."""
-    print(f"airtrack.py: error: {fault}", file=sys.stderr)
-    return 2
+        film(scene, wanted)
 
 def main(argv: list[str] | None = None) -> int:
-    """Do what argv or, without it, the command line asks for. Returns the exit status."""
+    """Do what argv or, without it, the command line asks for. Returns the exit status.
+
+    After -h and for wrong input argparse raises SystemExit with the status.
+    """
+    if argv is None:
+        argv = sys.argv[1:]
+    argv = [word.replace("\N{MINUS SIGN}", "-") for word in argv]  # as pages print it
+    parser = make_parser()
     try:
-        options = wanted(argv)
-        scene = scene_wanted(options)
-    except (ValueError, argparse.ArgumentError) as fault:
-        return refuse(fault)
-    try:
-        obey(options, scene)
-        sys.stdout.flush()
+        try:
+            obey(parser, argv)
+        finally:
+            sys.stdout.flush()  # what cannot be printed is a fault here, and not at Python's end
     except KeyboardInterrupt:
         return 130
     except OSError as fault:
@@ -1254,9 +1378,14 @@ def main(argv: list[str] | None = None) -> int:
         # try again to print what is left.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         if not isinstance(fault, BrokenPipeError):
-            return refuse(fault)
+            parser.exit(2, f"airtrack.py: error: {fault}\n")
     return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    status = main()
+    if status == 130 and os.name == "posix":
+        # Die by Ctrl-C's signal itself. Then a loop of the shell ends, too.
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+        os.kill(os.getpid(), signal.SIGINT)
+    sys.exit(status)

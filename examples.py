@@ -5,6 +5,7 @@ shows. The keys work in a little pygame window and in the terminal, whichever ha
 needs to read about the keys who came for the physics.
 """
 
+import importlib.util
 import os
 import shutil
 import signal
@@ -121,11 +122,13 @@ EXAMPLES = {
         "the start mark does the car come back? Press x after 30 s.",
         "It comes back elsewhere each time: it wanders. First it turns at about 1.81 m, and after "
         "about half a minute even beyond the start mark. On a busy computer these figures may be a "
-        "little different. The rebound gives back more height if the car is found deeper in the "
-        "wall. In irregular frames this depth is irregular, too."),
+        "little different. Think of the left wall as a floor again. The rebound gives back more "
+        "height if the car is found deeper in this wall. In irregular frames the depth is "
+        "irregular, too."),
     10: Example("The exact solution", EXACT,
         "Only 10 FPS, but exact formulas. How near to the start mark does the car come back? Begin "
-        "with s, press it fourteen times to see the first bounce, then p.",
+        "with s, and press it until you see the 0 of the first bounce, in line 14. Then p lets the "
+        "film go on, and x ends it.",
         "It comes back to the start mark, the dot at 2 m, every time. The car moves by the "
         "formulas of kinematics. The correction, rewind, works out at what moment of the frame the "
         "car met the wall, and lets it bounce at that moment. The 0 in frame 14 shows where the "
@@ -142,7 +145,7 @@ EXAMPLES = {
         "There is no last bounce. In truth the car bounces infinitely often before t = 11.91 s, "
         "the Zeno point, and then it rests. But rewind can settle only one bounce a frame. So its "
         "car hops on, too low to see, until the film calls it at rest in about frame 130. Replay "
-        "settles them all: with correction=replay the film stops in about frame 122. Still, rewind "
+        "settles them all: with correction=replay the film stops in about frame 120. Still, rewind "
         "is good enough for this scene. Until the film ends it is at most about 4.2 mm off, less "
         "than a quarter of a column. On a busy computer all these figures may be a little "
         "different."),
@@ -205,22 +208,22 @@ EXAMPLES = {
         "up, and in all other lines it falls by 0.20 m/s.",
         "One line shorter: the hops take 15, 14, 13 ... lines, down to 2 and 1, too low to see. In "
         "frame 134 the film calls the * at rest. There is a law of the hops: at CR = 1 each hop is "
-        "on average 2 k lines longer than the hop before. To get k, add the motion's number (1 for "
-        "forward, 0 for exact, -1 for backward) and the correction's (1/2 for surface, 1 for "
-        "rebound, 0 for conserve, 0 for none). Here k is -1 + 1/2 = -1/2. With motion=exact k is "
-        "1/2, and the hops take 18, 19, 20 ... lines for half a minute, until the * meets the "
-        "right wall."),
+        "k + k' lines longer than the hop before, where k belongs to the one hop and k' to the "
+        "other. With backward + surface k is between -1 and 0, so the hops get shorter. With "
+        "exact + surface k is between 0 and 1: add motion=exact, and the hops take 18, 19, 20 ... "
+        "lines for half a minute, until the * meets the right wall."),
     20: Example("Hops that lose speed, counted", {
         "x_m": 0.66, "v_mps": 0.75, "a_mps2": -2.0, "CR": 0.8, "motion": "exact",
         "fps_target": 10.0, "show_exact_mark": True},
         "Each bounce takes 20 % of the speed. Which comes to rest, the o or the *? Count the hops "
         "of the * as in example 19. Press x after 10 s.",
-        "Only the o comes to rest, at t = 7.05 s, its Zeno point. The hops of the * take 14, 12, "
-        "10 lines and, from frame 48 on, 9 for ever. The law for any CR is: on average a hop is "
-        "followed by one of CR (hop + k) + k lines. Here k is 0 + 1 = 1, on average. So after 9 "
-        "lines come 0.8 (9 + 1) + 1 = 9. A higher frame rate makes these hops lower, but at 30 or "
-        "60 FPS they do not end either. The cure is correction=conserve: with it the * comes to "
-        "rest at about 7 s, as the o does."),
+        "Only the o comes to rest, at t = 7.05 s, its Zeno point. (In the table it rests from the "
+        "end of this frame, 7.10 s.) The hops of the * take 14, 12, 10 lines and, from frame 48 "
+        "on, 9 for ever. The law for any CR is: a hop is followed by one of CR (hop + k) + k' "
+        "lines. With exact + rebound k is between 0 and 2, and from frame 48 on it is 1. So after "
+        "9 lines come 0.8 (9 + 1) + 1 = 9. A higher frame rate makes these hops lower, but at 30 "
+        "or 60 FPS they do not end either. The cure is correction=conserve: with it the * comes "
+        "to rest at about 7 s, as the o does."),
     21: Example("Five methods on one track", EXACT | {"show_methods": True},
         "The * is the car of example 10. Which letter leaves it first, which gets furthest away, "
         "and which two are never seen? Press x after 20 s.",
@@ -241,44 +244,60 @@ EXAMPLES = {
         "Only the o does: from t = 4.02 s on it lies still. From frame 327 on the * hops for ever, "
         "in hops of 16 lines that are 80 mm high. The order of the three lines is to blame. From "
         "contact to contact the game moves the ball, adds gravity, and settles the contact. That "
-        "is forward + surface, so by the law of example 19 k is 1 + 1/2 on average, and the hops "
-        "should end near k (1 + CR)/(1 - CR) = 13.5 lines. The three lines are repeated in a "
-        "circle, so there are only two orders. Position, gravity, contact hops for ever, with "
-        "whichever of the three a frame begins. Gravity, position, contact comes to rest, with "
-        "whichever a frame begins. The order that comes to rest is backward + surface, and its k "
-        "is -1/2. To see it, add motion=backward: the film stops in frame 218."),
+        "is forward + surface, so in the law of the hops k is between 1 and 2: too much energy. "
+        "Other starts end in hops of 14 to 17 lines. The three lines are repeated in a circle, so "
+        "there are only two orders. Position, gravity, contact hops for ever, with whichever of "
+        "the three a frame begins. Gravity, position, contact comes to rest, with whichever a "
+        "frame begins. That is backward + surface, whose k is between -1 and 0. To see it, add "
+        "motion=backward: the film stops in frame 218."),
 }
-OWN_SCENE = Example("Your own scene", {},
-    "Where does the car turn? Does it come to rest? (Nothing moves it if v_mps and a_mps2 are 0.)",
-    "The true car comes to rest at a wall, as CR is below 1. If yours hops on, its method is to "
-    "blame: add motion=exact correction=conserve. Examples 3 and 20 say why.")
+CHANGED = Example("A changed example", {},
+    "The + is the car of the example as it is, in its own frames and between its own walls. So it "
+    "may move only in some lines, and may turn where no wall is drawn. The o is the true car of "
+    "the changed scene. What does your change do to the *? Is the * right now?")
+OWN_SCENE = Example("Your own scene", {"show_exact_mark": True},
+    "The * is your car, and the o is the true car. Does the * stay on the o? Does it come to rest? "
+    "(Without an acceleration a car comes to rest only if CR is 0.)")
 
 
 # ==== The terminal's keys =======================================================================
 # Each system has its own way to get keys one by one, without Enter and without showing them.
 
-# With its input or output in a pipe or a file, this program has no terminal to read keys from.
-HAS_TERMINAL = os.isatty(0) and os.isatty(1)
+GONE = "gone"  # stands for a terminal that is no longer there
 ESC = "\x1b"
 
 if sys.platform == "win32":
+    HAS_TERMINAL = os.isatty(0) and os.isatty(1)
+
     @contextmanager
     def taken_terminal() -> Iterator[None]:
         """Windows gives keys one by one as it is, so there is nothing to take or to give back."""
         yield
 
-    def terminal_keys() -> str:
+    def terminal_keys() -> list[str]:
         """The keys that were pressed since the last call."""
-        keys = ""
+        keys = []
         while HAS_TERMINAL and msvcrt.kbhit():
             key = msvcrt.getwch()
             if key in ("\x00", "\xe0"):
                 msvcrt.getwch()  # an arrow, for example, is two characters: drop both
             else:
-                keys += key
+                keys.append(key)
         return keys
 
 else:
+    def has_terminal() -> bool:
+        """Whether input and output are a terminal from which keys can be taken."""
+        if not (os.isatty(0) and os.isatty(1)):
+            return False
+        try:
+            os.tcgetpgrp(0)
+        except OSError:  # it is not this program's own (after setsid): it could not be given back
+            return False
+        return True
+
+    HAS_TERMINAL = has_terminal()
+
     @contextmanager
     def taken_terminal() -> Iterator[None]:
         """Get keys one by one in the `with` block. Whatever ends it gives the terminal back."""
@@ -287,35 +306,50 @@ else:
             return
         found = termios.tcgetattr(0)
 
-        def take() -> None:
-            # Without TCSANOW, setcbreak would throw away the keys that wait.
-            tty.setcbreak(0, termios.TCSANOW)
+        def take(*_: object) -> None:
+            with suppress(OSError, termios.error):  # the terminal itself may be gone
+                # Without TCSANOW, setcbreak would throw away the keys that wait.
+                tty.setcbreak(0, termios.TCSANOW)
 
         def give_back() -> None:
-            with suppress(OSError, termios.error):  # the terminal itself may be gone
+            with suppress(OSError, termios.error):
                 # A program that was stopped by Ctrl-Z and then killed has given it back already.
                 if os.tcgetpgrp(0) == os.getpgrp():
                     # TCSAFLUSH throws away the keys that wait, so that the shell does not get them.
                     termios.tcsetattr(0, termios.TCSAFLUSH, found)
 
-        def stop(number: int, frame: object) -> None:
+        def stop(*_: object) -> None:
             give_back()
-            os.kill(os.getpid(), signal.SIGSTOP)  # the program stands still here until fg
+            handle(["SIGTSTP"], signal.SIG_DFL)
+            os.kill(os.getpid(), signal.SIGTSTP)  # the program stands still here until fg
+            handle(["SIGTSTP"], stop)
             take()
 
-        handle("SIGTSTP", stop)  # Ctrl-Z
         take()
+        handle(["SIGTSTP"], stop)  # Ctrl-Z
+        handle(["SIGCONT"], take)  # after kill -STOP
         try:
-            yield
-        finally:
-            handle("SIGTSTP", signal.SIG_DFL)
+            try:
+                yield
+            finally:
+                handle(ENDING_SIGNALS, signal.SIG_IGN)
+        finally:  # also if a signal has just ended the block above
+            handle(["SIGTSTP", "SIGCONT"], signal.SIG_IGN)
             give_back()
+            handle(["SIGTSTP", "SIGCONT"], signal.SIG_DFL)
 
-    def terminal_keys() -> str:
+    def terminal_keys() -> list[str]:
         """The keys that were pressed since the last call."""
         if not HAS_TERMINAL or not select.select([0], [], [], 0)[0]:
-            return ""
-        return os.read(0, 1024).decode("ascii", "ignore")
+            return []
+        try:
+            typed = os.read(0, 1024)
+        except OSError:
+            typed = b""
+        if not typed:
+            return [GONE]
+        # An arrow, for example, begins with Esc. Drop what came from there on.
+        return list(typed.decode("ascii", "ignore").partition(ESC)[0])
 
 # ==== The window's keys =========================================================================
 
@@ -328,7 +362,7 @@ class Window:
     def __init__(self) -> None:
         self.why_shut = ""
         if sys.platform == "linux":
-            if "DISPLAY" not in os.environ:
+            if not os.environ.get("DISPLAY"):
                 self.why_shut = "there is no display"
                 return
             # SDL, on which pygame stands, would else open an invisible window on a dead display.
@@ -336,6 +370,9 @@ class Window:
         os.environ["SDL_NO_SIGNAL_HANDLERS"] = "1"  # Ctrl-C and the like are for us
         os.environ.setdefault("SDL_VIDEO_WINDOW_POS", "60,60")  # not over the newest line
         os.environ["PYGAME_HIDE_SUPPORT_PROMPT"] = "1"
+        if importlib.util.find_spec("pygame") is None:
+            self.why_shut = "pygame is not installed"
+            return
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")  # pygame's own, which do not concern the user
@@ -347,9 +384,6 @@ class Window:
                 self.why_shut = "there is no display"  # these drivers show nothing
                 return
             pygame.display.set_mode((300, 20))
-        except ModuleNotFoundError:
-            self.why_shut = "pygame is not installed"
-            return
         except Exception as fault:  # a broken pygame may raise anything
             self.why_shut = f"pygame does not work: {fault}"
             return
@@ -386,7 +420,7 @@ class Window:
 
 CTRL_C = "\x03"
 WHY_QUIT = {"x": "x was pressed", CTRL_C: "Ctrl-C was pressed", ESC: "Esc was pressed",
-            CLOSED: "the window was closed"}
+            CLOSED: "the window was closed", GONE: "the terminal is gone"}
 PAUSE_KEYS = ("p", "\x13")  # Ctrl-S
 ENTER_KEYS = ("\r", "\n")
 READING_S = 10.0  # enough for the 60 words or so before a film and its question
@@ -402,6 +436,7 @@ class Keys:
         self.has_keys = HAS_TERMINAL or not window.why_shut
         self.has_colours = (sys.stdout.isatty() and not os.environ.get("NO_COLOR")
                             and os.environ.get("TERM", "dumb") != "dumb")
+        self.signals: list[str] = []  # Ctrl-C comes as a signal: kept until the next look
         self.why_quit = ""  # why the film is to end, or nothing
         self.has_begun = False
         self.is_paused = False
@@ -423,10 +458,14 @@ class Keys:
             when = f"The film begins in {READING_WITHOUT_KEYS_S:g} s, or now with Ctrl-C."
         return [where, question, when]
 
+    def press_ctrl_c(self, *_: object) -> None:
+        """Take the signal of Ctrl-C as a key."""
+        self.signals.append(CTRL_C)
+
     def look(self) -> None:
         """Act on the keys that were pressed since the last look."""
-        # An arrow, for example, begins with Esc in a terminal: drop it.
-        for key in [*terminal_keys().split(ESC)[0], *self.window.keys()]:
+        signals, self.signals = self.signals, []
+        for key in [*signals, *terminal_keys(), *self.window.keys()]:
             self.press(key.lower())
 
     def press(self, key: str) -> None:
@@ -436,6 +475,7 @@ class Keys:
                 print(DIAMOND)
             self.has_begun = True
             self.is_paused = False
+            self.steps = 0
         elif key in WHY_QUIT:
             self.why_quit = WHY_QUIT[key]
         elif key in PAUSE_KEYS:
@@ -451,41 +491,48 @@ class Keys:
         ends_s = time.perf_counter() + reading_s
         while not self.has_begun and not self.why_quit and self.steps == 0:
             self.look()
-            if time.perf_counter() >= ends_s and not self.is_paused:
+            if self.is_paused:
+                self.hold("the text is held: p lets go, Enter begins the film, x quits")
+            elif time.perf_counter() >= ends_s:
                 break
-            time.sleep(LOOK_S)
+            else:
+                time.sleep(LOOK_S)
         self.has_begun = True
 
     def wait_until(self, moment_s: float, frame: int, t_s: float) -> bool:
-        """Wait for a moment of time.perf_counter(), and while the film is paused.
+        """Wait for a moment of time.perf_counter() and, if the film is paused, until it goes on.
 
-        frame and t_s say how far the film is. Returns whether it was that moment which ended the
-        wait, and not a key.
+        frame and t_s say how far the film is. Returns whether the clock ended the wait: then it
+        tells how long the frame lasted. After a pause it does not.
         """
         sys.stdout.flush()
         self.look()
         while not self.is_paused and not self.why_quit:
-            left_s = moment_s - time.perf_counter()
-            if left_s <= 0:
+            remaining_s = moment_s - time.perf_counter()
+            if remaining_s <= 0:
                 return True
-            time.sleep(min(left_s, LOOK_S))
+            time.sleep(min(remaining_s, LOOK_S))
             self.look()
-        if self.is_paused and self.steps == 0:
-            self.hold(frame, t_s)
+        self.hold(f"paused after frame {frame}, t = {t_s:.2f} s: p resumes, s steps, x quits")
         self.steps = max(0, self.steps - 1)
         return False
 
-    def hold(self, frame: int, t_s: float) -> None:
-        """Wait until somebody resumes the film, asks for a step or quits."""
-        line = f"paused after frame {frame}, t = {t_s:.2f} s: p resumes, s steps, x quits"
-        line = line[:shutil.get_terminal_size().columns - 1]
+    def hold(self, text: str) -> None:
+        """While somebody has paused it, wait. A terminal shows the text meanwhile."""
+        if not self.is_held():
+            return
+        text = text[:shutil.get_terminal_size().columns - 1]
         try:
-            print_for_now(line)
-            while self.is_paused and self.steps == 0 and not self.why_quit:
+            print_for_now(text)
+            while self.is_held():
                 time.sleep(LOOK_S)
                 self.look()
         finally:
-            print_for_now(" " * len(line))
+            print_for_now(" " * len(text))
+
+    def is_held(self) -> bool:
+        """Whether it is paused, and nobody has asked for a step or for the end."""
+        return self.is_paused and self.steps == 0 and not self.why_quit
 
 class NoKeys:
     """What takes the place of the keys with --fast: nothing waits, and nobody presses a key."""
@@ -501,12 +548,8 @@ class NoKeys:
         """Leave no time to read."""
 
     def wait_until(self, moment_s: float, frame: int, t_s: float) -> bool:
-        """Do not wait. Returns False, as it was not that moment which ended the wait."""
+        """Do not wait. Returns False: the clock tells nothing."""
         return False
-
-    def press(self, key: str) -> None:
-        """Only Ctrl-C can come, and it ends the program."""
-        raise KeyboardInterrupt
 
 def print_for_now(text: str) -> None:
     """Print a text on a terminal, and go back to the start of its line: the next one covers it."""
@@ -515,14 +558,21 @@ def print_for_now(text: str) -> None:
 
 # ==== Taking and giving back ====================================================================
 
-def handle(name: str, handler: Any) -> None:
-    """Let the handler act on a signal, if the system has it and nobody wants it to be ignored."""
-    number = getattr(signal, name, None)
-    if number is not None and signal.getsignal(number) != signal.SIG_IGN:
-        signal.signal(number, handler)
+ENDING_SIGNALS = ["SIGINT", "SIGTERM", "SIGHUP", "SIGQUIT"]
 
-def end_by_signal(number: int, frame: object) -> NoReturn:
-    """End the program as shells expect it, with 128 + the signal's number. Python wants a frame."""
+# The signals that were ignored when the program began stay ignored: nohup relies on this.
+IGNORED = [each for each in signal.valid_signals() if signal.getsignal(each) == signal.SIG_IGN]
+
+def handle(names: list[str], handler: Any) -> None:
+    """Let the handler act on these signals, but on none that the system does not have."""
+    for name in names:
+        number = getattr(signal, name, None)
+        if number is not None and number not in IGNORED:
+            signal.signal(number, handler)
+
+def end_by_signal(number: int, _: object) -> NoReturn:
+    """End the program as shells expect it, with 128 + the signal's number."""
+    handle(ENDING_SIGNALS, signal.SIG_IGN)  # a second one must not disturb the end
     sys.exit(128 + number)
 
 @contextmanager
@@ -530,13 +580,14 @@ def taken_keys() -> Iterator[Keys]:
     """Take window and terminal for a film. Whatever ends the `with` block gives them back."""
     # A display that does not answer hangs pygame, and Python with it. Then only the system can act
     # on a signal. So Python's handlers come after the window.
-    handle("SIGINT", signal.SIG_DFL)
-    window = Window()
-    handle("SIGINT", signal.default_int_handler)
-    for name in ("SIGTERM", "SIGHUP", "SIGQUIT"):
-        handle(name, end_by_signal)
+    handle(["SIGINT"], signal.SIG_DFL)
+    keys = Keys(Window())
+    handle(["SIGTERM", "SIGHUP", "SIGQUIT"], end_by_signal)
+    handle(["SIGINT"], keys.press_ctrl_c)
     try:
         with taken_terminal():
-            yield Keys(window)
+            yield keys
     finally:
-        window.close()
+        keys.window.close()
+    handle(["SIGTERM", "SIGHUP", "SIGQUIT"], signal.SIG_DFL)
+    handle(["SIGINT"], signal.default_int_handler)
