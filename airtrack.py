@@ -616,8 +616,8 @@ class Car:
             return has_last_frames and self.v_mps == 0 and self.x_m == first_m
         if scene.correction == "replay":
             return self.lies_still()  # it hops until then, however low
-        # Other methods may never leave the car quite still. So it is enough that its mean distance from
-        # the floor is small, and that it is no faster than a would make it in the last frames.
+        # Other methods may never leave the car quite still. So it is enough that its mean distance
+        # from the floor is small, and that it is no faster than a makes it in the last frames.
         floor_m = scene.floor_m()
         if abs(self.x_m - floor_m) > REST_M * self.rest_frames:
             return False  # this distance alone makes the mean too large
