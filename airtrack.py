@@ -4,8 +4,8 @@ So its film is a graph: position to the right, time downwards.
 
 A WORD is one of these, in any order:
     EXAMPLE      the number of an example; without it 0, or 10 for chart and stability
-    d            details after each line: position x, velocity v and frame rate FPS; where
-                 the true car o is drawn, also err, how far the car is to the right of it
+    d            details after each line: position x, velocity v, frame rate FPS and, if
+                 the true car o is drawn, err: how far the car is to the right of the o
     NAME=VALUE   a setting that replaces the example's own
     chart        no film, but speed against accuracy: what each method costs, how wrong it is
     stability    no film, but the map: at which frame rates each method fails
@@ -34,9 +34,9 @@ README.md says what this is good for. .github/lesson.md is a lesson for a class.
 # Order 1 means that frames of half the length make half the error, and order 2 that they make a
 # quarter. Methods d and e have no order: where they are right, their only error is round-off. The
 # energy is that of a car which bounces on the wall to which it is accelerated, as a ball bounces on
-# a floor. Methods b to e need a constant acceleration. Methods a to d need frames that are short
-# beside the time between two bounces. In a longer frame they may miss a bounce or settle only one
-# of two, and they may throw the car out at the other end of the track.
+# a floor. Methods b to e need a constant acceleration. Methods a to d need short frames. In a frame
+# that is longer than the time between two bounces, they may miss a bounce or settle only one of
+# two, and they may throw the car out at the other end of the track.
 
 import argparse
 import difflib
@@ -88,8 +88,8 @@ def exact(x_m: float, v_mps: float, a_mps2: float, dt_s: float) -> State:
     """Kinematics: x + v dt + a dt^2/2, and v + a dt. No step changes the energy E."""
     return x_m + v_mps * dt_s + a_mps2 * dt_s * dt_s / 2, v_mps + a_mps2 * dt_s
 
-# If you write another motion, name it here. Then film and map know it. The corrections rewind and
-# replay refuse it, because they need the exact motion.
+# If you write another motion, name it here. Then film and map know it. (The chart compares METHODS,
+# see section 4.) Rewind and replay refuse it, because they need the exact motion.
 MOTIONS = {"forward": forward, "backward": backward, "exact": exact}
 
 # ==== 2. Colliding ==============================================================================
@@ -127,7 +127,7 @@ MOTIONS = {"forward": forward, "backward": backward, "exact": exact}
 def none(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> State:
     """Reverse the velocity, but leave the car beyond the wall, where it may be caught.
 
-    In example 3 the left wall is at 0.25 m, and CR is 0.6:
+    In example 3 CR is 0.6, and the acceleration is 1.5 m/s^2 into the wall. (Rounded figures.)
         frame 46   The move ends 5.2 cm deep.   inward_mps changes from  2.30 to -1.38.
         frame 47   The move ends 0.7 cm deep.   inward_mps changes from -1.33 to  0.80.
         frame 48   The move ends 3.6 cm deep.   inward_mps changes from  0.85 to -0.51.
@@ -140,19 +140,19 @@ def none(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> St
 def surface(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> State:
     """Put the car on the wall, with its velocity reversed.
 
-    If a points into the wall, this lifts the car against a. That should cost speed, but surface
-    does not slow the car. So the car has more energy than it should: in the drawn collision
-    2.88 J/kg instead of 1.86.
+    If the acceleration points into the wall, surface lifts the car against it. That should cost
+    speed, but surface does not slow the car. So the car has more energy than it should: in the
+    drawn collision 2.88 J/kg instead of 1.86.
     """
     return 0.0, -CR * inward_mps
 
 def rebound(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> State:
     """Put the car in front of the wall, CR * depth away.
 
-    If a is 0, this is right: in the time in which the move went beyond the wall by the depth, the
-    true car went back by CR times as much. If a points into the wall, rebound adds energy, as
-    surface does. If CR * depth is longer than the track, the car is thrown out at the other end
-    (example 14).
+    Without an acceleration this is right: in the time in which the move went beyond the wall by the
+    depth, the true car went back by CR times as much. If the acceleration points into the wall,
+    rebound adds energy, as surface does. If CR * depth is longer than the track, the car is thrown
+    out at the other end (example 14).
     """
     return -CR * depth_m, -CR * inward_mps
 
@@ -183,7 +183,7 @@ def arrival(d_m: float, u_mps: float, a_mps2: float) -> tuple[float, float]:
     """
     # Energy gives the speed w at the wall: w^2 = u^2 + 2 a d. Round-off may make w^2 negative.
     w_mps = math.sqrt(max(0.0, u_mps * u_mps + 2 * a_mps2 * d_m))
-    # Two formulas give the time t. A difference of two nearly equal numbers is nearly only
+    # Two formulas give the time t. If two numbers are nearly equal, their difference is mostly
     # round-off. So take the formula in which the speeds are added.
     if u_mps > 0:
         t_s = 2 * d_m / (u_mps + w_mps)  # from the mean velocity: d = t (u + w)/2
@@ -195,14 +195,15 @@ def rewind(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> 
     """Take the car back in time to the wall, let it bounce, and move it on to the frame's end.
 
     With the exact motion this is right if the frame holds one bounce and the move ends beyond the
-    wall (example 10). Rewind cannot settle a second bounce. If the car turns beyond the wall and is
-    back on the track when the frame ends, no collision is found: a missed event (example 18). If a
-    move goes further beyond the wall than the track is long, rewind may throw the car out, too.
+    wall. So in example 10, where CR is 1, the car comes back to its start each time. Rewind cannot
+    settle a second bounce. If the car turns beyond the wall and is back on the track when the frame
+    ends, no collision is found: a missed event (example 18). If a move goes further beyond the wall
+    than the track is long, rewind may throw the car out, too.
     """
-    # Run the film backwards: the car comes out of the wall. How long does that take, and how fast
-    # is the car at the wall? In reversed time a velocity changes its sign, and an acceleration does
-    # not. But arrival() counts towards the wall, which is outwards here. This changes both signs.
-    # So the velocity is inward_mps again, and the acceleration is -inward_mps2.
+    # Run the film backwards: the car comes out of the wall. Its velocity changes its sign, so now
+    # it is outwards. Its acceleration does not change its sign, so it is still inwards. The wall is
+    # outwards of the car, and arrival() counts towards the wall. So for arrival() the velocity is
+    # inward_mps, and the acceleration is -inward_mps2.
     late_s, met_mps = arrival(depth_m, inward_mps, -inward_mps2)  # 0.030 s, 2.41 m/s
     # Run it forwards again, from the wall, after the bounce, for the same time.
     depth_m, inward_mps = exact(0.0, -CR * met_mps, inward_mps2, late_s)
@@ -246,8 +247,7 @@ class Scene:
     CR: float = setting(0.8, "speed after a bounce / before it", least=0, largest=1)
     motion: str = setting("backward", "how the car is moved", choices=list(MOTIONS))
     correction: str = setting("rebound", "how a collision is settled", choices=ALL_CORRECTIONS)
-    fps_target: float = setting(30.0, "frames a second: dt is 1/fps_target s, but with "
-                                "use_observed_dt", least=0.1, largest=1000)
+    fps_target: float = setting(30.0, "frames a second; dt = 1/fps_target", least=0.1, largest=1000)
     use_observed_dt: bool = setting(False, "dt is how long a frame lasted", choices=YES_OR_NO)
     jitter: float = setting(0.0, "frames last longer or shorter by up to this fraction",
                             least=0, largest=0.9)
@@ -272,7 +272,7 @@ class Scene:
         return self.left_edge_m <= self.x_m <= self.right_edge_m
 
     def floor_m(self) -> float:
-        """The wall to which the car is accelerated. Without a, it is the left wall."""
+        """The wall to which the car is accelerated. If a_mps2 is 0, it is the left wall."""
         return self.right_edge_m if self.a_mps2 > 0 else self.left_edge_m
 
     def energy(self, x_m: float, v_mps: float) -> float:
@@ -318,8 +318,8 @@ def step(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> Moved:
 # take a finite time: if the first hop lasts 1 s, all of them last 1 + CR + CR^2 + ... seconds, and
 # this sum is 1/(1 - CR). The moment at which they end is called the Zeno point. From then on the
 # ball is at rest. Nobody can follow infinitely many hops one by one. So a ball that would rise less
-# than GRAZE_M is at rest here. The heights of the hops shrink so fast that this takes a few hundred
-# hops at most, unless CR is very near to 1.
+# than GRAZE_M is at rest here. After a drop from 2 m it takes 55 hops to get there if CR is 0.8,
+# and about 600 if CR is 0.98.
 
 GRAZE_M = 5e-11  # far more than the round-off of a position, and less than an atom's width
 
@@ -347,7 +347,7 @@ def replay(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> Moved:
     # A car that has not turned and is still on the track has met no wall. This quick way out is
     # not needed, but most frames take it, and it is several times as fast.
     free_m, free_mps = exact(x_m, v_mps, scene.a_mps2, dt_s)
-    has_turned = v_mps * free_mps < 0
+    has_turned = v_mps * free_mps < 0  # its velocity has changed its sign
     if scene.left_edge_m <= free_m <= scene.right_edge_m and not has_turned:
         return free_m, free_mps, None
     # Turn the track into a room. up is the direction away from the floor.
@@ -362,8 +362,8 @@ def replay(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> Moved:
     while rise_mps != 0 or g_mps2 != 0:  # otherwise nothing moves the ball
         wall, flight_s, speed_mps = next_bounce(h_m, rise_mps, g_mps2, room_m)
         if scene.CR == 1 and wall == "floor" and last_wall == "floor":
-            # From now on all hops last equally long. Leave out those that fit in as a whole. Then
-            # less time remains than a hop lasts.
+            # From now on all hops last equally long. Leave out those that fit in as a whole. What
+            # remains is the remainder of a division (%), also for numbers with a fraction.
             remaining_s %= flight_s
         if flight_s > remaining_s:
             break  # the frame ends before the ball gets there
@@ -568,10 +568,9 @@ class Car:
         self.most_off_m = 0.0  # how far it was at most from the true car
         self.energy = scene.energy(self.x_m, self.v_mps)  # in J/kg
         self.first_energy = self.least_energy = self.most_energy = self.energy
-        # A car is at rest if it has lain still for 1/3 s, which is enough to see it. But a low rate
-        # has only a few frames in 1/3 s, and a car in flight may be near a wall for some frames,
-        # too. So at least ten frames are asked. A deque with a maxlen forgets the oldest of them
-        # when a new one comes.
+        # Whether a car rests is asked of its last frames: of those of 1/3 s, which is enough to see
+        # it, but of at least ten, because a car in flight may be near a wall for some frames, too.
+        # A deque with a maxlen forgets the oldest of them when a new one comes.
         self.rest_frames = max(10, round(scene.fps_target / 3))
         self.last: deque[tuple[float, float]] = deque(maxlen=self.rest_frames)  # t_s and x_m
         self.rest_began_s: float | None = None  # since when it lies still, if it does
@@ -600,24 +599,26 @@ class Car:
         if not self.is_at_rest():
             self.rest_began_s = None
         elif self.rest_began_s is None:
+            # A car that lies still does so from this frame on, another from the first frame asked.
             first_s, _ = self.last[0]
             self.rest_began_s = self.t_s if self.lies_still() else first_s
 
     def lies_still(self) -> bool:
-        """Whether it is exactly on the floor, with v = 0. So replay leaves a car that rests."""
-        return self.v_mps == 0 and self.x_m == self.scene.floor_m()
+        """Whether it lies exactly on its floor, with v = 0. A true car that rests does."""
+        has_floor = self.scene.a_mps2 != 0
+        return has_floor and self.v_mps == 0 and self.x_m == self.scene.floor_m()
 
     def is_at_rest(self) -> bool:
-        """Whether it rests at the floor or, without a, does not move at all."""
+        """Whether it rests on its floor or, without an acceleration, does not move at all."""
         scene = self.scene
         has_last_frames = len(self.last) == self.rest_frames
         if scene.a_mps2 == 0:
             _, first_m = self.last[0]
             return has_last_frames and self.v_mps == 0 and self.x_m == first_m
         if scene.correction == "replay":
-            return self.lies_still()  # it hops until then, however low
+            return self.lies_still()  # until then it hops, however low
         # Other methods may never leave the car quite still. So it is enough that its mean distance
-        # from the floor is small, and that it is no faster than a makes it in the last frames.
+        # from the floor is small, and that it is no faster than it becomes in the last frames.
         floor_m = scene.floor_m()
         if abs(self.x_m - floor_m) > REST_M * self.rest_frames:
             return False  # this distance alone makes the mean too large
@@ -631,8 +632,7 @@ class Car:
 
     def is_beyond_a_wall(self) -> bool:
         """Whether it was beyond a wall in all of the last frames, not only after a bounce."""
-        on_track = [x_m for _, x_m in self.last if x_m == self.scene.to_track(x_m)]
-        return not on_track
+        return all(x_m != self.scene.to_track(x_m) for _, x_m in self.last)
 
 class UnchangedCar(Car):
     """The + of a changed example: the car of the example as it is, in frames of its own.
@@ -677,14 +677,15 @@ def cars_of(scene: Scene, unchanged: Scene | None) -> dict[str, Car]:
         cars["o"] = true_car
     if unchanged is not None:
         cars["+"] = UnchangedCar(unchanged, scene)
-    cars["*"] = true_car  # if the car moves as the true car does
-    if scene != true_car.scene:
+    if scene == true_car.scene:
+        cars["*"] = true_car
+    else:
         cars["*"] = Car(scene, true_car)
     true_car.is_drawn = true_car in cars.values()
     return cars
 
 def number_text(number: float) -> str:
-    """A number with four digits that count. Less than a thousandth is shown as 0."""
+    """A number with four significant digits. Less than a thousandth is shown as 0."""
     if abs(number) < 0.001:
         return "0"
     return f"{number:.4g}"
@@ -943,8 +944,8 @@ VERDICTS = {  # from the worst to the best. W is not for one run, but for ten: s
     "S": "stuck: beyond the same wall all through the last 5 s",
     "H": "hops or hovers, over 1 mm off in the last 5 s, although the true car rests",
     "W": "as G in some runs, as L in others",
-    "G": "over a pixel off, with over 1 % too much energy on average over the last 5 s",
-    "L": "over a pixel off, with over 1 % too little energy on average over the last 5 s",
+    "G": "over a pixel off, with over 1 % too much energy on average in the last 5 s",
+    "L": "over a pixel off, with over 1 % too little energy on average in the last 5 s",
     "P": "over a pixel off, with the right energy",
     "-": "within a drawn pixel of the truth",
 }
@@ -972,7 +973,7 @@ def verdict(scene: Scene, fps: int, cut: int) -> str:
     if max(errors_m) <= 1 / scene.m_to_px:
         return "-"
     # G or L: how much more energy than the true car had it? 100 % is its energy at the start, and
-    # what a could add on the whole length of the track.
+    # what the acceleration could add on the whole length of the track.
     all_energy = scene.v_mps**2 / 2 + abs(scene.a_mps2) * track_m
     energies = [scene.energy(sample.x_m, sample.v_mps) for sample in samples[late:]]
     true_energies = [scene.energy(sample.true_m, sample.true_mps) for sample in samples[late:]]
@@ -996,9 +997,9 @@ def stability(scene: Scene, title: str) -> None:
     """Print the map: a row for each method, a column for each rate, a letter for ten runs."""
     say(f"Stability. {title}")
     say("Which methods are right, and from which frame rate on? Each runs ten times for 20 "
-        "simulated seconds. A capital letter: so in all ten runs. A small letter: so in some, and "
-        "better in the others. 100 % of the energy is v^2/2 at the start + |a| * length of the "
-        "track. Examples 19 and 20 say why a car hops on (H), gains energy (G) or loses it (L).")
+        "simulated seconds. A small letter: only some of the ten runs are so bad. 100 % of the "
+        "energy is v^2/2 at the start + the acceleration * the length of the track. Examples 19 "
+        "and 20 say why a car gets too much energy (H, G) or too little (L).")
     print()
     print(" " * 20 + "".join([str(fps).rjust(6) for fps in MAP_FPS]) + " FPS")
     for motion in MOTIONS:
@@ -1042,28 +1043,29 @@ def stability(scene: Scene, title: str) -> None:
 # the drop is 6 cm.
 #
 # (1) Each frame of a hop adds g dt to the speed downwards. So
-#         u + w = hop g dt                            here 1.1 + 1.3 = 6 * 0.4
-# (2) Why is w larger than u? There are two reasons. The drop adds the energy g drop. And the motion
-#     adds s g^2 dt^2/2 in each frame, where s is 1 for forward, 0 for exact and -1 for backward
-#     (section 1). So
-#         (w^2 - u^2)/2 = g drop + hop s g^2 dt^2/2   here (1.69 - 1.21)/2 = 4 * 0.06 + 0
-#     The left side is (w - u) (u + w)/2. By (1) that is (w - u) hop g dt/2. Divide both sides by
-#     hop g dt/2, and write way for the length hop g dt^2/2. Then
-#         w - u = k g dt    with    k = s + drop/way
-#     Here the way is 6 * 4 * 0.01/2 m = 12 cm. So k is 0 + 6/12 = 1/2, and 1.3 - 1.1 = 1/2 * 0.4.
+#         u + w = hop g dt                                here 1.1 + 1.3 = 6 * 0.4
+# (2) Why is w not u? Ask for the energy v^2/2. The car ends the hop lower, which gives it g * drop.
+#     And in each frame the motion gives it s g^2 dt^2/2, where s is 1 for forward, 0 for exact and
+#     -1 for backward (section 1). So
+#         (w^2 - u^2)/2 = g * drop + hop * s g^2 dt^2/2   here (1.69 - 1.21)/2 = 4 * 0.06 + 0
+#     The left side is (w - u) times (u + w)/2. Here (u + w)/2 is the mean of both speeds. By (1) it
+#     is hop g dt/2. Call the way of one frame at this speed *way*: it is hop g dt^2/2, here 12 cm.
+#     Divide both sides by (u + w)/2:
+#         w - u = k g dt    with    k = s + drop/way      here k = 0 + 6/12, and 1.3 - 1.1 = k * 0.4
 # (3) Add (1) and (2), or subtract them:
 #         w = (hop + k) g dt/2    and    u = (hop - k) g dt/2
-#     The bounce makes the u of the next hop from this w: it is CR w. So (next - k') g dt/2 is
-#     CR (hop + k) g dt/2. Divide by g dt/2, and this is the law. In the film of the drawn hop the
-#     next hop has 7 frames, its drop is 7 cm, and its way is 14 cm. So k' is 1/2, too:
-#         next = CR (hop + k) + k'                    here 7 = 1 (6 + 1/2) + 1/2
+#     For the next hop, u is (next - k') g dt/2. The bounce makes this u from the w of the hop
+#     before: it is CR w, which is CR (hop + k) g dt/2. Divide both by g dt/2, and this is the law.
+#     Here the next hop has 7 frames, a drop of 7 cm and a way of 14 cm. So k' is 1/2, too:
+#         next = CR (hop + k) + k'                        here 7 = 1 (6 + 1/2) + 1/2
 #
 # How large is k? Take exact + surface. The hop begins on the floor. After n frames the car is
 # n dt (u - n g dt/2) above the floor. The hop ends with the first frame after which this is below
 # 0. So u is less than hop g dt/2. One frame earlier the car was not below the floor. So u is at
 # least (hop - 1) g dt/2. By (3), u is (hop - k) g dt/2. Therefore k is more than 0 and at most 1.
-# The other methods are like it. With rebound a hop begins above the floor, so its drop may be twice
-# as large. In every hop of two frames or more, at any CR, k is between these bounds:
+# For forward and backward the same steps give 1 to 2 and -1 to 0. With rebound a hop begins above
+# the floor, so its drop may be larger, and k up to 1 larger. (This proof is longer. The tests check
+# it.) In every hop of two frames or more, at any CR, k is between these bounds:
 #
 #                  surface     rebound
 #     forward      1 to 2      1 to 3
@@ -1071,20 +1073,23 @@ def stability(scene: Scene, title: str) -> None:
 #     backward    -1 to 0     -1 to 1
 #
 # What does k do?
-#     k > 0   The car gets too much energy. At CR = 1 each hop is longer than the hop before, by
-#             k + k' frames (G in the map). At CR < 1 the hops should die out, but many do not. Put
-#             next = hop and k' = k into the law: a hop of k (1 + CR)/(1 - CR) frames repeats for
-#             ever, if that is two frames or more (H). With exact + rebound at CR = 0.8 and k = 1,
-#             it has 1 * 1.8/0.2 = 9 frames, as in example 20. With rebound the hops may also end
-#             in a cycle, as 7 7 8 9 9 8.
+#     k > 0   The car gets too much energy in the hop. At CR = 1 each hop is longer than the hop
+#             before, by k + k' frames (G in the map). At CR < 1 the hops should die out, but many
+#             do not. Put next = hop and k' = k into the law: a hop of k (1 + CR)/(1 - CR) frames
+#             repeats for ever, if that is two frames or more (H). With rebound the hops may also
+#             end in a cycle, as 7 7 8 9 9 8.
 #     k < 0   The car gets too little energy. At CR = 1 it should hop for ever, but its hops get
 #             shorter, and it comes to rest (L).
-#     k = 0   The hop has the right energy.
-# So forward and exact, with surface or rebound, give too much energy. Backward + surface gives too
-# little. (Or just enough, if k is 0 in every hop. This happens to some balls that are dropped from
-# rest.) Backward + rebound may give too much in one hop and too little in the next, so its car
-# wanders. Which k a car gets within the bounds depends on its start, because the start decides how
-# late in a frame the car meets the floor.
+#     k = 0   The car gets the right energy.
+#
+# Example 19 is backward + surface at CR = 1. Its k is below 0 in each hop, so the car comes to
+# rest. Example 20 is exact + rebound at CR = 0.8. Its hops end with k = 1, so with 1 * 1.8/0.2 = 9
+# frames, and the car never comes to rest. With exact + surface at CR = 0.8 k is at most 1, so the
+# hops that repeat have 2 to 9 frames. Which k a car gets depends on its start, because the start
+# decides how late in a frame the car meets the floor. Two cases may surprise. Backward + rebound
+# may give too much energy in one hop and too little in the next, so its car wanders. And with
+# backward + surface at CR = 1, a car that starts from rest may have k = 0 in each hop. Then it hops
+# for ever, as it should.
 
 # The physics ends here.
 
@@ -1136,7 +1141,8 @@ def film(scene: Scene, wanted: Wanted) -> None:
     if view.width_px < scene.width_px:
         say(f"The picture is drawn {view.width_px} columns wide, to fit into the terminal.")
     cars = cars_of(view, unchanged)
-    with nullcontext(NoKeys()) if wanted.is_fast else taken_keys() as keys:
+    taking = nullcontext(NoKeys()) if wanted.is_fast else taken_keys()
+    with taking as keys:
         for text in keys.texts_before(example.look_for):
             say(text)
         keys.leave_time()
@@ -1148,27 +1154,38 @@ def film(scene: Scene, wanted: Wanted) -> None:
     tell_cars(cars)
     if not wanted.is_fast:
         print()
-        say(example.seen or advice(cars["*"], wanted))
+        if example.seen:
+            say(example.seen)
+        else:  # nobody has seen this scene before
+            say(advice(cars["*"], 1 / scene.m_to_px))
+            say_map(wanted)
         say_next(wanted.number)
 
-def advice(car: Car, wanted: Wanted) -> str:
+def advice(car: Car, pixel_m: float) -> str:
     """Is the car's method right for its scene? If not, what may be tried?"""
     scene = car.scene
-    text = f"The * was up to {number_text(car.most_off_m)} m from its true car"
-    if car.most_off_m <= 1 / scene.m_to_px:
-        text += ", less than a column. So its method is right for this film."
-    else:
-        text += ", more than a column."
-        cures = ["conserve", "rewind", "replay"]  # each is right in more frames than the one before
-        if not scene.starts_on_track():
-            cures = ["conserve"]
-        if scene.motion == "exact" and scene.correction in cures:
-            cures = cures[cures.index(scene.correction) + 1:]
-        if cures:
-            text += f" Try motion=exact and correction={' or '.join(cures)}, both at once."
-    words = [word for word in wanted.typed if word.partition("=")[0] in OF_THE_TRACK]
-    asked = " ".join(["stability", str(wanted.number), *words])
-    return f"{text} Which methods are right for this scene? {PYTHON} airtrack.py {asked}"
+    off, pixel = number_text(car.most_off_m), f"{pixel_m:.2g}"
+    if car.most_off_m <= pixel_m:
+        return (f"The * was at most {off} m from its true car, which is within a drawn pixel "
+                f"({pixel} m). So its method is right for this film.")
+    text = f"The * was up to {off} m from its true car, which is over a drawn pixel ({pixel} m)."
+    cures = ["conserve", "rewind", "replay"]  # each is right in more frames than the one before
+    if not scene.starts_on_track():
+        cures = ["conserve"]
+    if scene.motion == "exact" and scene.correction in cures:
+        cures = cures[cures.index(scene.correction) + 1:]
+    if cures:
+        text += f" Set motion=exact and, at the same time, correction={' or '.join(cures)}."
+    return text
+
+def say_map(wanted: Wanted) -> None:
+    """Say which map shows what the methods are worth for this scene."""
+    words = ["stability", str(wanted.number)]
+    for word in wanted.typed:
+        name, _, _ = word.partition("=")
+        if name in OF_THE_TRACK:
+            words.append(word)
+    say(f"Which methods are right here? {PYTHON} airtrack.py {' '.join(words)}")
 
 def say_next(number: int) -> None:
     """Say what to type after this film."""
@@ -1265,7 +1282,7 @@ def unknown(words: list[str]) -> str:
                 break
         return f"unknown word {word}: write {name}={value}, without spaces"
     hints = OTHER_NAMES | {each.lower(): each for each in [*SETTINGS, *COMMANDS]}
-    cutoff = 1.0 if len(name) == 1 else 0.6  # a single letter is like too many names
+    cutoff = 1.0 if len(name) == 1 else 0.6  # a single letter must be in the table itself
     near = difflib.get_close_matches(name.lower(), hints, n=1, cutoff=cutoff)
     if not near:
         return f"unknown word {word}: -h lists all that there are"

@@ -19,7 +19,14 @@ from PIL import Image, ImageDraw, ImageFont
 HERE = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(HERE))
 
-from airtrack import METHODS, measure, scene_wanted, start_text, title_of, wanted  # noqa: E402
+from airtrack import (  # noqa: E402
+    METHODS,
+    make_parser,
+    measure,
+    read_command_line,
+    scene_wanted,
+    start_text,
+)
 
 COLUMNS, FRAMES, ROWS = 88, 120, 18  # as wide as a page has room for
 COMMAND = f"python airtrack.py 17 m_to_px=36 width_px={COLUMNS}"
@@ -54,20 +61,23 @@ def moving_picture(file: Path) -> None:
 
 def chart(words: list[str], file: str) -> Figure:
     """Measure as the program's chart does, and draw the points on two logarithmic scales."""
-    options = wanted(["chart", *words])
-    scene = scene_wanted(options)
+    wanted = read_command_line(make_parser(), ["chart", *words])
+    scene = scene_wanted(wanted)
     figure = Figure(figsize=(8, 6), dpi=150, layout="constrained")
-    heading = f"{title_of(options.number, options.changes)}. {start_text(scene)}"
+    heading = f"Example {wanted.number}: {start_text(scene)}"
     figure.suptitle(f"Speed against accuracy\n{textwrap.fill(heading, 110)}", fontsize=9)
     axes = figure.add_subplot(
         xscale="log", yscale="log", xlabel="largest error in ten runs (m): better to the left",
-        ylabel="processor time for a simulated second (\N{MICRO SIGN}s): better upwards")
+        ylabel="time for a simulated second (\N{MICRO SIGN}s): better upwards")
     axes.invert_yaxis()
+    axes.margins(x=0.08)  # room for the labels
     for (letter, series), marker in zip(measure(scene).items(), "oxD+v", strict=True):
         errors_m = [max(point.error_m, 1e-16) for point in series]  # 0 has no logarithm
         costs_us = [point.cost_us for point in series]
         label = f"{letter}: {' + '.join(METHODS[letter])}"
         axes.plot(errors_m, costs_us, f"{marker}-", label=label)
+        for end in (0, -1):  # the lowest and the highest rate
+            axes.annotate(f" {series[end].fps} FPS", (errors_m[end], costs_us[end]), fontsize=7)
     axes.axvline(1 / scene.m_to_px, color="black", linestyle="--", label="one drawn pixel")
     figure.legend(loc="outside lower center", ncols=3)
     figure.savefig(file)
