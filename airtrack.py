@@ -121,13 +121,13 @@ MOTIONS = {"forward": forward, "backward": backward, "exact": exact}
 # A bounce keeps the part CR of the speed, so it keeps CR^2 of the energy: 0.64 * 2.90 is 1.86.
 # Only conserve and rewind leave the right energy. Only rewind leaves the right place, too.
 #
-# All corrections take the same four arguments and return a new depth_m and a new inward_mps. So
-# step() can call any of them.
+# The five corrections of this section take the same four arguments, and return a new depth_m and a
+# new inward_mps. So step() can call any of them.
 
 def none(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> State:
     """Reverse the velocity, but leave the car beyond the wall, where it may be caught.
 
-    In example 3 CR is 0.6, and the acceleration is 1.5 m/s^2 into the wall. (Rounded figures.)
+    In example 3 the acceleration is 1.5 m/s^2 into the wall, dt is 1/30 s, and CR is 0.6. Rounded:
         frame 46   The move ends 5.2 cm deep.   inward_mps changes from  2.30 to -1.38.
         frame 47   The move ends 0.7 cm deep.   inward_mps changes from -1.33 to  0.80.
         frame 48   The move ends 3.6 cm deep.   inward_mps changes from  0.85 to -0.51.
@@ -200,15 +200,14 @@ def rewind(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> 
     ends, no collision is found: a missed event (example 18). If a move goes further beyond the wall
     than the track is long, rewind may throw the car out, too.
     """
-    # Run the film backwards: the car comes out of the wall. Its velocity changes its sign, so now
-    # it is outwards. Its acceleration does not change its sign, so it is still inwards. The wall is
-    # outwards of the car, and arrival() counts towards the wall. So for arrival() the velocity is
-    # inward_mps, and the acceleration is -inward_mps2.
+    # Run the film backwards: the car comes out of the wall. When is it at the wall, and how fast?
+    # arrival() counts towards the wall, so outwards here. Backwards in time the velocity is
+    # outwards: inward_mps. The acceleration still points inwards, so it is -inward_mps2.
     late_s, met_mps = arrival(depth_m, inward_mps, -inward_mps2)  # 0.030 s, 2.41 m/s
     # Run it forwards again, from the wall, after the bounce, for the same time.
-    depth_m, inward_mps = exact(0.0, -CR * met_mps, inward_mps2, late_s)
+    new_depth_m, new_inward_mps = exact(0.0, -CR * met_mps, inward_mps2, late_s)
     # If the car is in the wall again, there was a second bounce: put it on the wall.
-    return min(depth_m, 0.0), inward_mps
+    return min(new_depth_m, 0.0), new_inward_mps
 
 CORRECTIONS = {"none": none, "surface": surface, "rebound": rebound, "conserve": conserve,
                "rewind": rewind}
@@ -318,8 +317,8 @@ def step(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> Moved:
 # take a finite time: if the first hop lasts 1 s, all of them last 1 + CR + CR^2 + ... seconds, and
 # this sum is 1/(1 - CR). The moment at which they end is called the Zeno point. From then on the
 # ball is at rest. Nobody can follow infinitely many hops one by one. So a ball that would rise less
-# than GRAZE_M is at rest here. After a drop from 2 m it takes 55 hops to get there if CR is 0.8,
-# and about 600 if CR is 0.98.
+# than GRAZE_M is at rest here. After a drop from 2 m this is at bounce 55 if CR is 0.8, and at
+# bounce 604 if CR is 0.98.
 
 GRAZE_M = 5e-11  # far more than the round-off of a position, and less than an atom's width
 
@@ -599,7 +598,7 @@ class Car:
         if not self.is_at_rest():
             self.rest_began_s = None
         elif self.rest_began_s is None:
-            # A car that lies still does so from this frame on, another from the first frame asked.
+            # A car that lies still began to rest now. Others began at the first of the last frames.
             first_s, _ = self.last[0]
             self.rest_began_s = self.t_s if self.lies_still() else first_s
 
@@ -608,13 +607,16 @@ class Car:
         has_floor = self.scene.a_mps2 != 0
         return has_floor and self.v_mps == 0 and self.x_m == self.scene.floor_m()
 
+    def has_last_frames(self) -> bool:
+        """Whether there are enough frames to ask."""
+        return len(self.last) == self.rest_frames
+
     def is_at_rest(self) -> bool:
         """Whether it rests on its floor or, without an acceleration, does not move at all."""
         scene = self.scene
-        has_last_frames = len(self.last) == self.rest_frames
         if scene.a_mps2 == 0:
             _, first_m = self.last[0]
-            return has_last_frames and self.v_mps == 0 and self.x_m == first_m
+            return self.has_last_frames() and self.v_mps == 0 and self.x_m == first_m
         if scene.correction == "replay":
             return self.lies_still()  # until then it hops, however low
         # Other methods may never leave the car quite still. So it is enough that its mean distance
@@ -624,7 +626,7 @@ class Car:
             return False  # this distance alone makes the mean too large
         if self.lies_still():
             return True
-        if not has_last_frames:
+        if not self.has_last_frames():
             return False
         if abs(self.v_mps) > abs(scene.a_mps2) * self.rest_frames / scene.fps_target:
             return False
@@ -632,7 +634,8 @@ class Car:
 
     def is_beyond_a_wall(self) -> bool:
         """Whether it was beyond a wall in all of the last frames, not only after a bounce."""
-        return all(x_m != self.scene.to_track(x_m) for _, x_m in self.last)
+        are_beyond = [x_m != self.scene.to_track(x_m) for _, x_m in self.last]
+        return self.has_last_frames() and all(are_beyond)
 
 class UnchangedCar(Car):
     """The + of a changed example: the car of the example as it is, in frames of its own.
@@ -708,13 +711,14 @@ def end_text(car: Car) -> str:
 def tell_cars(cars: dict[str, Car]) -> None:
     """Print a table with a row for each car, and a line for its hops and its end."""
     marks = [mark for mark in "*+oabcde" if mark in cars]
-    zero = "v = 0" if cars["*"].scene.a_mps2 == 0 else "at rest on its floor"
-    print(f"                      furthest from     energy (J/kg; 0: {zero})")
+    print("                      furthest from     energy in J/kg, 0 if at rest on its floor")
     print("                       its true car      first      least       most       last")
     for mark in marks:
         car = cars[mark]
         name = method_text(car.scene)
         off = f"{number_text(car.most_off_m)} m"
+        if car.most_off_m < 0.001:
+            off = "under 1 mm"
         if mark == "o":
             name, off = "the truth", ""
         row = f"{mark} {name:20}{off:>13}"
@@ -734,17 +738,12 @@ def run(cars: dict[str, Car], has_details: bool, max_frames: int, keys: Keys | N
     car = cars["*"]
     scene = car.scene
     pace = Pace(scene, keys)
-    # The true car moves first. It may be one of the cars, or not be drawn.
-    moving = [car.truth]
-    for each in cars.values():
-        if each is not car.truth:
-            moving.append(each)
+    moving = list(dict.fromkeys([car.truth, *cars.values()]))  # the true car first, each car once
     why = ""
     while not why:
         # Wait until the next frame is due.
         dt_s, fps = pace.wait(car.frames, car.t_s)
         if keys.why_quit:
-            why = keys.why_quit
             break
         # Move the cars, and settle their collisions.
         for each in moving:
@@ -762,6 +761,8 @@ def run(cars: dict[str, Car], has_details: bool, max_frames: int, keys: Keys | N
             why = "the car is at rest"
         elif car.frames >= max_frames:
             why = "that is the frame limit"
+    if keys.why_quit:
+        why = keys.why_quit
     print(f"Stopped after {car.frames} frames, t = {car.t_s:.2f} s: {why}.", flush=True)
 
 # ==== 7. The chart: speed against accuracy ======================================================
@@ -790,8 +791,8 @@ def simulate(scene: Scene, fps: int, cut: int) -> list[Sample]:
     truth = truth_of(scene)
     part = 0.0
     if cut > 0:
-        # Nine parts, evenly spread over the frame. None of them is 0 or 1, as this would be cut 0
-        # again: they are 1/27, 4/27, 7/27, ... 25/27.
+        # Nine parts, 1/9 of a frame apart: 1/27, 4/27, 7/27, ... 25/27. None of them is at the edge
+        # of a frame, because a run from there would be cut 0 again.
         part = (cut - 2 / 3) / (CUTS - 1)
     true_m, true_mps, _ = step(truth, truth.x_m, truth.v_mps, part * dt_s)
     x_m, v_mps = true_m, true_mps
@@ -885,8 +886,10 @@ def picture(points: dict[str, list[Point]], pixel_m: float) -> None:
         for point in series:
             row = round(ROWS_A_DECADE * math.log10(point.cost_us))
             place = row, error_column(point.error_m)
-            is_free = letters.get(place, letter) == letter
-            letters[place] = letter if is_free else "+"
+            if letters.get(place, letter) == letter:  # free, or this letter stands there already
+                letters[place] = letter
+            else:
+                letters[place] = "+"
     rows = [row for row, _ in letters]
     pixel_column = error_column(pixel_m)
     print("one drawn pixel |".rjust(10 + pixel_column + 1))
@@ -1028,8 +1031,9 @@ def stability(scene: Scene, title: str) -> None:
 # For these two corrections the law is
 #         next = CR (hop + k) + k'
 # Here hop and next are the lengths of a hop and of the hop after it, both in frames. The number k
-# belongs to the hop, and k' belongs to the next hop. If both were 0, this would be the truth. So k
-# says how wrong a hop is. The law has three steps. They begin with a drawn hop.
+# belongs to the hop, and k' to the next hop. It says how wrong the hop is. A true car comes back to
+# the floor as fast as it left it. This car ends its hop faster than it began it, by k g dt. If k
+# and k' were 0, the law would be the truth. It is found in three steps, beside a drawn hop.
 #
 # Here is a hop with exact + surface. CR is 1, g is 4 m/s^2, dt is 0.1 s, and a column is 1 cm.
 #     0:        *                   The hop begins on the floor (*), with u = 1.1 m/s upwards.
@@ -1045,12 +1049,13 @@ def stability(scene: Scene, title: str) -> None:
 # (1) Each frame of a hop adds g dt to the speed downwards. So
 #         u + w = hop g dt                                here 1.1 + 1.3 = 6 * 0.4
 # (2) Why is w not u? Ask for the energy v^2/2. The car ends the hop lower, which gives it g * drop.
-#     And in each frame the motion gives it s g^2 dt^2/2, where s is 1 for forward, 0 for exact and
-#     -1 for backward (section 1). So
+#     (The fault comes after it: surface lifts the car back to the floor and does not slow it.) And
+#     in each frame the motion gives it s g^2 dt^2/2, where s is 1 for forward, 0 for exact and -1
+#     for backward (section 1). So
 #         (w^2 - u^2)/2 = g * drop + hop * s g^2 dt^2/2   here (1.69 - 1.21)/2 = 4 * 0.06 + 0
-#     The left side is (w - u) times (u + w)/2. Here (u + w)/2 is the mean of both speeds. By (1) it
-#     is hop g dt/2. Call the way of one frame at this speed *way*: it is hop g dt^2/2, here 12 cm.
-#     Divide both sides by (u + w)/2:
+#     The left side is (w - u) times (u + w)/2, the mean of both speeds. By (1) this mean speed is
+#     hop g dt/2. At this speed the car goes hop g dt^2/2 in a frame. Call this length the way. Here
+#     it is 12 cm. Divide both sides by the mean speed:
 #         w - u = k g dt    with    k = s + drop/way      here k = 0 + 6/12, and 1.3 - 1.1 = k * 0.4
 # (3) Add (1) and (2), or subtract them:
 #         w = (hop + k) g dt/2    and    u = (hop - k) g dt/2
@@ -1061,7 +1066,7 @@ def stability(scene: Scene, title: str) -> None:
 #
 # How large is k? Take exact + surface. The hop begins on the floor. After n frames the car is
 # n dt (u - n g dt/2) above the floor. The hop ends with the first frame after which this is below
-# 0. So u is less than hop g dt/2. One frame earlier the car was not below the floor. So u is at
+# 0. So for n = hop it is below 0: u is less than hop g dt/2. For n = hop - 1 it is not: u is at
 # least (hop - 1) g dt/2. By (3), u is (hop - k) g dt/2. Therefore k is more than 0 and at most 1.
 # For forward and backward the same steps give 1 to 2 and -1 to 0. With rebound a hop begins above
 # the floor, so its drop may be larger, and k up to 1 larger. (This proof is longer. The tests check
@@ -1073,23 +1078,24 @@ def stability(scene: Scene, title: str) -> None:
 #     backward    -1 to 0     -1 to 1
 #
 # What does k do?
-#     k > 0   The car gets too much energy in the hop. At CR = 1 each hop is longer than the hop
+#     k > 0   The car gets too much energy. At CR = 1 each hop is longer than the hop
 #             before, by k + k' frames (G in the map). At CR < 1 the hops should die out, but many
 #             do not. Put next = hop and k' = k into the law: a hop of k (1 + CR)/(1 - CR) frames
-#             repeats for ever, if that is two frames or more (H). With rebound the hops may also
-#             end in a cycle, as 7 7 8 9 9 8.
+#             repeats for ever, if that is two frames or more (H). (A car whose hops have one frame
+#             rests.) With rebound the hops may also end in a cycle, as 7 7 8 9 9 8.
 #     k < 0   The car gets too little energy. At CR = 1 it should hop for ever, but its hops get
 #             shorter, and it comes to rest (L).
 #     k = 0   The car gets the right energy.
 #
 # Example 19 is backward + surface at CR = 1. Its k is below 0 in each hop, so the car comes to
-# rest. Example 20 is exact + rebound at CR = 0.8. Its hops end with k = 1, so with 1 * 1.8/0.2 = 9
-# frames, and the car never comes to rest. With exact + surface at CR = 0.8 k is at most 1, so the
-# hops that repeat have 2 to 9 frames. Which k a car gets depends on its start, because the start
-# decides how late in a frame the car meets the floor. Two cases may surprise. Backward + rebound
-# may give too much energy in one hop and too little in the next, so its car wanders. And with
-# backward + surface at CR = 1, a car that starts from rest may have k = 0 in each hop. Then it hops
-# for ever, as it should.
+# rest. Example 20 is exact + rebound at CR = 0.8. Its hops get to k = 1, so to 1 * 1.8/0.2 = 9
+# frames, and stay so: the car never comes to rest. With exact + surface at CR = 0.8 k is at most 1,
+# so the hops that repeat have 2 to 9 frames. Which k a car gets depends on its start, because the
+# start decides how late in a frame the car meets the floor.
+#
+# Two cases may surprise. Backward + rebound may give too much energy in one hop and too little in
+# the next, so its car gets higher and lower in turn. And with backward + surface at CR = 1, a car
+# that starts from rest may have k = 0 in each hop. Then it hops for ever, as it should.
 
 # The physics ends here.
 
@@ -1102,7 +1108,7 @@ class Wanted(NamedTuple):
     command: str  # film, chart or stability
     number: int  # of the example
     changes: dict[str, Any]  # the settings that replace the example's own
-    typed: list[str]  # the same, as they were typed
+    typed: dict[str, str]  # the same, as they were typed: NAME=VALUE by the name
     has_details: bool
     is_fast: bool
     max_frames: int
@@ -1121,7 +1127,7 @@ def say_before(scene: Scene, wanted: Wanted) -> None:
     title = f"{OWN_SCENE.title} (the examples are 0 to {max(EXAMPLES)})"
     if wanted.number in EXAMPLES:
         title = f"Example {wanted.number}: {EXAMPLES[wanted.number].title}"
-    say(", ".join([title, *wanted.typed]))
+    say(", ".join([title, *wanted.typed.values()]))
     text = scene_text(scene)
     if scene.show_methods:
         for letter, method in methods_of(truth_of(scene)).items():
@@ -1134,7 +1140,8 @@ def film(scene: Scene, wanted: Wanted) -> None:
     unchanged = unchanged_of(wanted, scene)
     if unchanged is not None:
         example = CHANGED
-        scene = replace(scene, show_exact_mark=True)
+        shows_truth = wanted.changes.get("show_exact_mark", True)
+        scene = replace(scene, show_exact_mark=shows_truth)
     has_details = wanted.has_details or wanted.number == 0  # the first film shows what there is
     say_before(scene, wanted)
     view = fitted(scene, has_details)
@@ -1165,6 +1172,8 @@ def advice(car: Car, pixel_m: float) -> str:
     """Is the car's method right for its scene? If not, what may be tried?"""
     scene = car.scene
     off, pixel = number_text(car.most_off_m), f"{pixel_m:.2g}"
+    if not car.collisions:
+        return "The * has not met a wall, so this film tells nothing of its correction."
     if car.most_off_m <= pixel_m:
         return (f"The * was at most {off} m from its true car, which is within a drawn pixel "
                 f"({pixel} m). So its method is right for this film.")
@@ -1174,15 +1183,16 @@ def advice(car: Car, pixel_m: float) -> str:
         cures = ["conserve"]
     if scene.motion == "exact" and scene.correction in cures:
         cures = cures[cures.index(scene.correction) + 1:]
-    if cures:
-        text += f" Set motion=exact and, at the same time, correction={' or '.join(cures)}."
-    return text
+    if not cures:
+        return text
+    if scene.motion == "exact":
+        return f"{text} Try correction={' or '.join(cures)}."
+    return f"{text} Try motion=exact and, at the same time, correction={' or '.join(cures)}."
 
 def say_map(wanted: Wanted) -> None:
     """Say which map shows what the methods are worth for this scene."""
     words = ["stability", str(wanted.number)]
-    for word in wanted.typed:
-        name, _, _ = word.partition("=")
+    for name, word in wanted.typed.items():
         if name in OF_THE_TRACK:
             words.append(word)
     say(f"Which methods are right here? {PYTHON} airtrack.py {' '.join(words)}")
@@ -1298,7 +1308,7 @@ def epilog() -> str:
         lines.append(f"  {number:2}  {example.title}")
     lines += ["", "motions and corrections:"]
     for name, method in [*MOTIONS.items(), *CORRECTIONS.items(), ("replay", replay)]:
-        first_line, *_ = str(method.__doc__).splitlines()
+        first_line = str(method.__doc__).splitlines()[0]
         row = f"  {name:9} {first_line}"
         lines.append(textwrap.fill(row, 80, subsequent_indent=" " * 12))
     lines += ["", "settings: default, meaning and what is allowed"]
@@ -1323,7 +1333,7 @@ def make_parser() -> argparse.ArgumentParser:
 def read_command_line(parser: argparse.ArgumentParser, argv: list[str]) -> Wanted:
     """What the words and options of the command line ask for. Raises ValueError."""
     options = parser.parse_intermixed_args(argv)
-    commands, numbers, changes, typed = [], [], {}, []
+    commands, numbers, changes, typed = [], [], {}, {}
     for place, word in enumerate(options.words):
         name, _, text = word.partition("=")
         if word in ("d", "D"):
@@ -1334,7 +1344,7 @@ def read_command_line(parser: argparse.ArgumentParser, argv: list[str]) -> Wante
             numbers.append(int(word))
         elif name in SETTINGS and text:
             changes[name] = value_of(name, text)
-            typed.append(word)
+            typed[name] = word
         else:
             raise ValueError(unknown(options.words[place:]))
     if len(commands) > 1 or len(numbers) > 1:
@@ -1370,7 +1380,7 @@ def obey(parser: argparse.ArgumentParser, argv: list[str]) -> None:
     except ValueError as fault:
         parser.error(str(fault))
     if wanted.command in COMMANDS:
-        COMMANDS[wanted.command](scene, f"Example {wanted.number}: {start_text(scene)}")
+        COMMANDS[wanted.command](scene, f"Scene {wanted.number}: {start_text(scene)}")
     else:
         film(scene, wanted)
 
