@@ -3,11 +3,13 @@
 So its film is a graph: position to the right, time downwards.
 
 A WORD is one of these, in any order:
-    EXAMPLE      the number of an example; without it 0, or 10 for chart and stability
-    d            details after each line: position x, velocity v, frame rate FPS and, if
-                 the true car o is drawn, err: how far the car is to the right of the o
+    EXAMPLE      the number of an example; else 0, or 10 for chart and stability
+    d            details after each line: position x, velocity v, frame rate FPS
+                 and, if the true car o is drawn, err: how far the car is to the
+                 right of the o
     NAME=VALUE   a setting that replaces the example's own
-    chart        no film, but speed against accuracy: what each method costs, how wrong it is
+    chart        no film, but speed against accuracy: how dear and how wrong
+                 each method is
     stability    no film, but the map: at which frame rates each method fails
 
 For example: python airtrack.py 10 d fps_target=30
@@ -48,11 +50,11 @@ import sys
 import textwrap
 import time
 from collections import deque
-from contextlib import nullcontext
+from contextlib import nullcontext, suppress
 from dataclasses import dataclass, field, fields, replace
 from itertools import pairwise
 from statistics import fmean
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple, TextIO, TypeVar
 
 from examples import CHANGED, EXAMPLES, OWN_SCENE, Keys, NoKeys, taken_keys
 
@@ -693,6 +695,12 @@ def number_text(number: float) -> str:
         return "0"
     return f"{number:.4g}"
 
+def off_text(car: Car) -> str:
+    """How far the car was at most from its true car."""
+    if car.most_off_m < 0.001:
+        return "under 1 mm"
+    return f"{number_text(car.most_off_m)} m"
+
 def hops_text(collisions: list[int]) -> str:
     """How many frames there are from bounce to bounce: the first four and the last two."""
     hops = [str(after - before) for before, after in pairwise(collisions)]
@@ -711,14 +719,12 @@ def end_text(car: Car) -> str:
 def tell_cars(cars: dict[str, Car]) -> None:
     """Print a table with a row for each car, and a line for its hops and its end."""
     marks = [mark for mark in "*+oabcde" if mark in cars]
-    print("                      furthest from     energy in J/kg, 0 if at rest on its floor")
+    print("                      furthest from     energy (J/kg; 0: at rest on its floor)")
     print("                       its true car      first      least       most       last")
     for mark in marks:
         car = cars[mark]
         name = method_text(car.scene)
-        off = f"{number_text(car.most_off_m)} m"
-        if car.most_off_m < 0.001:
-            off = "under 1 mm"
+        off = off_text(car)
         if mark == "o":
             name, off = "the truth", ""
         row = f"{mark} {name:20}{off:>13}"
@@ -1150,7 +1156,10 @@ def film(scene: Scene, wanted: Wanted) -> None:
     cars = cars_of(view, unchanged)
     taking = nullcontext(NoKeys()) if wanted.is_fast else taken_keys()
     with taking as keys:
-        for text in keys.texts_before(example.look_for):
+        question = example.look_for
+        if not example.seen and not scene.show_exact_mark:
+            question = "Does the * come to rest?"  # the other question is about the o
+        for text in keys.texts_before(question):
             say(text)
         keys.leave_time()
         print()
@@ -1171,13 +1180,13 @@ def film(scene: Scene, wanted: Wanted) -> None:
 def advice(car: Car, pixel_m: float) -> str:
     """Is the car's method right for its scene? If not, what may be tried?"""
     scene = car.scene
-    off, pixel = number_text(car.most_off_m), f"{pixel_m:.2g}"
+    off, pixel = off_text(car), f"{pixel_m:.2g} m"
     if not car.collisions:
         return "The * has not met a wall, so this film tells nothing of its correction."
     if car.most_off_m <= pixel_m:
-        return (f"The * was at most {off} m from its true car, which is within a drawn pixel "
-                f"({pixel} m). So its method is right for this film.")
-    text = f"The * was up to {off} m from its true car, which is over a drawn pixel ({pixel} m)."
+        return (f"The distance from the * to its true car was at most {off}, which is within a "
+                f"drawn pixel ({pixel}). So its method is right for this film.")
+    text = f"The * was up to {off} from its true car, which is over a drawn pixel ({pixel})."
     cures = ["conserve", "rewind", "replay"]  # each is right in more frames than the one before
     if not scene.starts_on_track():
         cures = ["conserve"]
@@ -1384,6 +1393,16 @@ def obey(parser: argparse.ArgumentParser, argv: list[str]) -> None:
     else:
         film(scene, wanted)
 
+def flush(stream: TextIO | None) -> None:
+    """Print what still waits. If that fails, drop it: Python would try again at its end."""
+    if stream is None:
+        return  # it was closed before the program began
+    try:
+        stream.flush()
+    except OSError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
+        raise
+
 def main(argv: list[str] | None = None) -> int:
     """Do what argv or, without it, the command line asks for. Returns the exit status.
 
@@ -1397,15 +1416,16 @@ def main(argv: list[str] | None = None) -> int:
         try:
             obey(parser, argv)
         finally:
-            sys.stdout.flush()  # what cannot be printed is a fault here, and not at Python's end
+            flush(sys.stdout)
     except KeyboardInterrupt:
         return 130
-    except OSError as fault:
-        # Nobody reads any more, as after | head, or the disk is full. When Python ends, it would
-        # try again to print what is left.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        if not isinstance(fault, BrokenPipeError):
-            parser.exit(2, f"airtrack.py: error: {fault}\n")
+    except BrokenPipeError:
+        return 0  # nobody reads any more, as after | head
+    except OSError as fault:  # the disk is full, say
+        parser.exit(2, f"airtrack.py: error: {fault}\n")
+    finally:
+        with suppress(OSError):
+            flush(sys.stderr)
     return 0
 
 

@@ -306,35 +306,39 @@ else:
             return
         found = termios.tcgetattr(0)
 
+        # Neither of these may touch the terminal while the shell has it, as after Ctrl-Z and bg.
         def take(*_: object) -> None:
             with suppress(OSError, termios.error):  # the terminal itself may be gone
-                # Without TCSANOW, setcbreak would throw away the keys that wait.
-                tty.setcbreak(0, termios.TCSANOW)
+                if os.tcgetpgrp(0) == os.getpgrp():
+                    # Without TCSANOW, setcbreak would throw away the keys that wait.
+                    tty.setcbreak(0, termios.TCSANOW)
 
         def give_back() -> None:
             with suppress(OSError, termios.error):
-                # A program that was stopped by Ctrl-Z and then killed has given it back already.
                 if os.tcgetpgrp(0) == os.getpgrp():
                     # TCSAFLUSH throws away the keys that wait, so that the shell does not get them.
                     termios.tcsetattr(0, termios.TCSAFLUSH, found)
 
         def stop(*_: object) -> None:
+            handle(["SIGCONT"], ignore)
             give_back()
             handle(["SIGTSTP"], signal.SIG_DFL)
             os.kill(os.getpid(), signal.SIGTSTP)  # the program stands still here until fg
-            handle(["SIGTSTP"], stop)
+            start()
+
+        def start() -> None:
+            handle(["SIGTSTP"], stop)  # Ctrl-Z
+            handle(["SIGCONT"], take)  # after kill -STOP
             take()
 
-        take()
-        handle(["SIGTSTP"], stop)  # Ctrl-Z
-        handle(["SIGCONT"], take)  # after kill -STOP
         try:
             try:
+                start()
                 yield
             finally:
-                handle(ENDING_SIGNALS, signal.SIG_IGN)
+                handle(ENDING_SIGNALS, ignore)
         finally:  # also if a signal has just ended the block above
-            handle(["SIGTSTP", "SIGCONT"], signal.SIG_IGN)
+            handle(["SIGTSTP", "SIGCONT"], ignore)
             give_back()
             handle(["SIGTSTP", "SIGCONT"], signal.SIG_DFL)
 
@@ -439,6 +443,7 @@ class Keys:
         self.signals: list[str] = []  # Ctrl-C comes as a signal: kept until the next look
         self.why_quit = ""  # why the film is to end, or nothing
         self.has_begun = False
+        self.shows_diamond = False  # in front of the film
         self.is_paused = False
         self.steps = 0  # frames to show although the film is paused
 
@@ -471,8 +476,7 @@ class Keys:
     def press(self, key: str) -> None:
         """Act on a key."""
         if key in (*ENTER_KEYS, CTRL_C) and not self.has_begun:
-            if key == CTRL_C:
-                print(DIAMOND)
+            self.shows_diamond = key == CTRL_C
             self.has_begun = True
             self.is_paused = False
             self.steps = 0
@@ -498,6 +502,8 @@ class Keys:
             else:
                 time.sleep(LOOK_S)
         self.has_begun = True
+        if self.shows_diamond:
+            print(DIAMOND)
 
     def wait_until(self, moment_s: float, frame: int, t_s: float) -> bool:
         """Wait for a moment of time.perf_counter() and, if the film is paused, until it goes on.
@@ -572,8 +578,11 @@ def handle(names: list[str], handler: Any) -> None:
 
 def end_by_signal(number: int, _: object) -> NoReturn:
     """End the program as shells expect it, with 128 + the signal's number."""
-    handle(ENDING_SIGNALS, signal.SIG_IGN)  # a second one must not disturb the end
+    handle(ENDING_SIGNALS, ignore)  # a second one must not disturb the end
     sys.exit(128 + number)
+
+def ignore(number: int, _: object) -> None:
+    """Do nothing. (With SIG_IGN, Python would tell of a signal that came just before.)"""
 
 @contextmanager
 def taken_keys() -> Iterator[Keys]:

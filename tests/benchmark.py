@@ -7,13 +7,12 @@ import io
 import sys
 import time
 from contextlib import redirect_stdout
-from dataclasses import replace
 from pathlib import Path
 from timeit import repeat
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
-from airtrack import METHODS, Scene, cost_us, run
+from airtrack import Scene, cars_of, cost_us, methods_of, run
 from examples import EXAMPLES, NoKeys
 
 FRAMES = 20_000
@@ -22,16 +21,15 @@ FRAMES = 20_000
 def frame_us(scene: Scene) -> float:
     """A frame of its film, printed into memory."""
     with redirect_stdout(io.StringIO()):
-        costs_s = repeat(lambda: run(scene, False, FRAMES, NoKeys()), number=1, repeat=7,
-                         timer=time.process_time)
+        costs_s = repeat(lambda: run(cars_of(scene, None), False, FRAMES, NoKeys()), number=1,
+                         repeat=7, timer=time.process_time)
     return 1e6 / FRAMES * min(costs_s)
 
 
 def main() -> None:
     ten = Scene(**EXAMPLES[10].settings)
     for fps in (10, 120, 960):
-        costs_us = [cost_us(replace(ten, motion=motion, correction=correction), fps)
-                    for motion, correction in METHODS.values()]
+        costs_us = [cost_us(method, fps) for method in methods_of(ten).values()]
         ratio = max(costs_us) / min(costs_us)
         print(f"example 10 at {fps} FPS: the dearest method costs {ratio:.2f} times the cheapest")
     print(f"example 10: the move takes {cost_us(ten, 10) / 10 / frame_us(ten):.0%} of a frame")

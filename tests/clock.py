@@ -10,18 +10,22 @@ import pytest
 import airtrack
 import examples
 
+Play = Callable[..., str]
+
 
 class Clock:
     """A clock that goes on only while somebody sleeps, or when a test says so."""
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.now_s = 1000.0
+        self.sleeps = 0
         self.frames_s: list[float] = []  # when each frame was drawn
         self.when_drawn: Callable[[int], float] = lambda frame: 1e-5  # how long that takes
         self.due: list[tuple[float, str]] = []  # when keys are pressed, and which
         stand_in = SimpleNamespace(perf_counter=lambda: self.now_s, sleep=self.sleep)
         monkeypatch.setattr(airtrack, "time", stand_in)
         monkeypatch.setattr(examples, "time", stand_in)
+        monkeypatch.setattr(examples, "HAS_TERMINAL", False)
         monkeypatch.setattr(examples, "terminal_keys", self.pressed)
         render_track = airtrack.render_track
 
@@ -34,6 +38,8 @@ class Clock:
 
     def sleep(self, seconds: float) -> None:
         assert seconds >= 0
+        self.sleeps += 1
+        assert self.sleeps < 100_000, "it waits for ever"
         self.now_s += seconds + 60e-6  # a little too long, as real ones are
 
     def press(self, **keys: str) -> None:
@@ -54,3 +60,18 @@ class Clock:
 def positions_m(out: str) -> list[float]:
     """The x of every frame in what was printed."""
     return [float(x) for x in re.findall(r"x = +(-?[0-9.]+), v", out)]
+
+
+def plain(out: str) -> str:
+    """A text without its line breaks."""
+    return " ".join(out.split())
+
+
+def ending(out: str) -> str:
+    """The line that says why a film has stopped."""
+    return next(line for line in out.splitlines() if line.startswith("Stopped"))
+
+
+def last_words(out: str) -> str:
+    """What stands behind the table, without its line breaks."""
+    return plain(out.partition("\nFrames from bounce to bounce")[2].partition("\n\n")[2])

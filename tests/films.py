@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise, product
 from pathlib import Path
@@ -42,16 +43,17 @@ class Film(NamedTuple):
     intro: str
     lines: list[str]
     ending: str
+    table: list[str]
 
 
 def film(capsys: pytest.CaptureFixture[str], *words: str) -> Film:
-    """Run main with --fast and the words. An empty line parts the header from the film."""
+    """Run main with --fast and the words. Empty lines part header, film and table."""
     assert main([*words, "--fast"]) == 0
     out, err = capsys.readouterr()
     assert err == ""
-    header, _, rest = out.partition("\n\n")
-    *lines, ending = rest.splitlines()
-    return Film(" ".join(header.split()), lines, ending)
+    header, shown, table = out.split("\n\n")
+    *lines, ending = shown.splitlines()
+    return Film(" ".join(header.split()), lines, ending, table.splitlines())
 
 
 def details(line: str) -> tuple[float, float]:
@@ -71,12 +73,17 @@ def states(number: int, frames: int, **changes: object) -> list[State]:
     return states_of(Scene(**EXAMPLES[number].settings | changes), frames)
 
 
+def lengths_s(scene: Scene, frames: int) -> list[float]:
+    """The time steps of a --fast film."""
+    if scene.use_observed_dt:
+        return [planned_length(scene, frame) for frame in range(1, frames + 1)]
+    return [1 / scene.fps_target] * frames
+
+
 def states_of(scene: Scene, frames: int) -> list[State]:
     """x, v and mark_m after each frame of a scene, each as long as planned."""
     x_m, v_mps, found = scene.x_m, scene.v_mps, []
-    for frame in range(1, frames + 1):
-        planned_s = planned_length(scene, frame)
-        dt_s = planned_s if scene.use_observed_dt else 1 / scene.fps_target
+    for dt_s in lengths_s(scene, frames):
         x_m, v_mps, mark_m = step(scene, x_m, v_mps, dt_s)
         found.append((x_m, v_mps, mark_m))
     return found
@@ -144,6 +151,7 @@ class Terminal(contextlib.AbstractContextManager["Terminal"]):
         self.ours, self.theirs = os.openpty()
         fcntl.ioctl(self.theirs, termios.TIOCSWINSZ, struct.pack("4H", 40, columns, 0, 0))
         self.found = self.mode()
+        self.command = command
         self.all, self.seen = "", 0  # all that came, and how much of it was waited for
         self.program = subprocess.Popen(
             command, stdin=self.theirs, stdout=self.theirs, stderr=self.theirs, cwd=HERE,
@@ -165,6 +173,12 @@ class Terminal(contextlib.AbstractContextManager["Terminal"]):
             self.program.send_signal(signal.Signals[keys])
         else:
             os.write(self.ours, keys.encode())
+
+    def hang_up(self) -> None:
+        """Take the terminal away."""
+        nothing = os.open(os.devnull, os.O_RDWR)
+        os.dup2(nothing, self.ours)
+        os.close(nothing)
 
     def until_read(self) -> None:
         """Wait until the program has read the keys that were typed."""
@@ -191,11 +205,21 @@ class Terminal(contextlib.AbstractContextManager["Terminal"]):
 
     def ends(self, status: int) -> None:
         """Wait for the end: with this status, without a traceback, the terminal as found."""
+        self.ends_with([status])
+
+    def ends_by(self, *signals: str) -> None:
+        """Wait for the end by one of these signals, as a shell sees it."""
+        numbers = [signal.Signals[name] for name in signals]
+        self.ends_with([128 + each for each in numbers] + [-each for each in numbers])
+
+    def ends_with(self, statuses: Sequence[int]) -> None:
+        deadline_s = time.monotonic() + PATIENCE_S
         while self.program.poll() is None or self.read(0):
+            assert time.monotonic() < deadline_s, f"it does not end: {self.all[-1000:]}"
             self.read(0.05)
-        assert self.program.returncode == status, self.all[-1000:]
-        assert self.mode() == self.found
-        assert "Traceback" not in self.all
+        assert self.mode() == self.found, self.all[-1000:]
+        assert "Traceback" not in self.all, self.all[-1000:]
+        assert self.program.returncode in statuses, self.all[-1000:]
 
     def ends_at_x(self) -> None:
         self.press("x")

@@ -1,10 +1,11 @@
 """Makes the pages' pictures, and a chart of any scene. Needs matplotlib, of the test extra.
 
     python tests/make_pictures.py                                        those in .github/
+    python tests/make_pictures.py sheet                                  prints the worksheet
     python tests/make_pictures.py chart [EXAMPLE] [NAME=VALUE ...] FILE  a .png, .svg or .pdf
 
-The moving picture is a terminal in which a film scrolls. The picture of the window is a screenshot,
-taken by hand.
+The moving picture is a terminal in which a film scrolls. The worksheet is example 8 on one page of
+A4, without the answer. It is kept in .github/worksheet.txt.
 """
 
 import subprocess
@@ -24,9 +25,13 @@ from airtrack import (  # noqa: E402
     make_parser,
     measure,
     read_command_line,
+    render_track,
+    scene_of,
     scene_wanted,
     start_text,
+    step,
 )
+from examples import EXAMPLES  # noqa: E402
 
 COLUMNS, FRAMES, ROWS = 88, 120, 18  # as wide as a page has room for
 COMMAND = f"python airtrack.py 17 m_to_px=36 width_px={COLUMNS}"
@@ -84,12 +89,50 @@ def chart(words: list[str], file: str) -> Figure:
     return figure
 
 
+SHEET_FRAMES = 53  # up to the second return
+SHEET_COLUMNS = 67  # up to the right wall
+SHEET_SCALE = {"m_to_px": 30.0, "width_px": SHEET_COLUMNS}
+MARKS_M = [0.5, 1.0, 1.5, 2.0]
+
+
+def worksheet() -> str:
+    """Example 8 for pupils: 58 lines of at most 72 columns, with scales for x and t."""
+    scene = scene_of(EXAMPLES[8].settings | SHEET_SCALE)
+    dt_s = 1 / scene.fps_target
+    axis = list("x (m)".ljust(SHEET_COLUMNS) + "t (s)")
+    for mark_m in MARKS_M:
+        column = round(mark_m * scene.m_to_px)
+        axis[column - 1:column + 2] = str(mark_m)
+    lines = [
+        "Example 8: Elastic, large steps                    Name:",
+        "No speed is lost in a bounce. How near to its start, the dots at 2 m,",
+        "does the car * come back? Walls: |. A move ended in the wall: 0.",
+        "A column is 3.3 cm, a line is 0.1 s. a = -2 m/s^2, walls at 0.25, 2.2 m.",
+        "".join(axis)]
+    x_m, v_mps = scene.x_m, scene.v_mps
+    for frame in range(1, SHEET_FRAMES + 1):
+        x_m, v_mps, found_m = step(scene, x_m, v_mps, dt_s)
+        line = list(render_track(scene, {"*": x_m}, found_m))
+        if frame == 1 or frame % 5 == 0:
+            for place_m in MARKS_M:
+                column = round(place_m * scene.m_to_px)
+                if line[column] == " ":
+                    line[column] = "."
+            line.append(f"{frame * dt_s:5.1f}")
+        lines.append("".join(line).rstrip())
+    return "\n".join(lines) + "\n"
+
+
 def main(words: list[str]) -> None:
+    if words == ["sheet"]:
+        print(worksheet(), end="")
+        return
     if words:
         chart(words[1:-1], words[-1])
         return
     moving_picture(HERE / ".github/example-17.gif")
     chart([], str(HERE / ".github/chart.png"))
+    (HERE / ".github/worksheet.txt").write_text(worksheet())
 
 
 if __name__ == "__main__":

@@ -1,34 +1,44 @@
-"""One line of the film: marks, columns, colours and details."""
+"""One line of the film: marks, columns and details."""
 
+from dataclasses import replace
 from typing import Any
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from airtrack import METHODS, Scene, details_text, render_track, scenes_beside
+from airtrack import METHODS, Scene, cars_of, details_text, render_track
 from films import film
 
 Capture = pytest.CaptureFixture[str]
-ALL_MARKS: dict[str, Any] = {"show_start_mark": True, "show_collision_mark": True}
+ALL_MARKS: dict[str, Any] = {"show_start_mark": True, "show_collision_mark": True,
+                             "show_exact_mark": True, "show_methods": True}
 near = st.sampled_from([0.25, 1.0, 2.2]) | st.floats(-3, 3)  # so that marks meet
 metres = near | st.floats(-1e6, 1e6)
 
 
-@given(x_m=metres, mark_m=metres | st.none(), others_m=st.lists(metres, min_size=6, max_size=6),
-       start_m=near, width_px=st.integers(10, 200), m_to_px=st.floats(1, 100))
+@given(places=st.lists(metres, min_size=8, max_size=8), hit_m=metres | st.none(), start_m=near,
+       left_m=st.sampled_from([0.25, -0.5]) | st.floats(-3, 3), track_m=st.floats(0.01, 5),
+       width_px=st.integers(10, 200), m_to_px=st.floats(1, 100))
 def test_every_column_shows_the_first_of_the_marks_that_belong_there(
-        x_m: float, mark_m: float | None, others_m: list[float], start_m: float,
+        places: list[float], hit_m: float | None, start_m: float, left_m: float, track_m: float,
         width_px: int, m_to_px: float) -> None:
-    scene = Scene(x_m=start_m, width_px=width_px, m_to_px=m_to_px, show_methods=True,
-                  show_exact_mark=True, **ALL_MARKS)
-    others = {mark: (at_m, 0.0) for mark, at_m in zip(scenes_beside(scene), others_m, strict=True)}
-    car_px = round(x_m * m_to_px)
-    car = ("<", 0) if car_px < 0 else (">", width_px - 1) if car_px >= width_px else ("*", car_px)
-    ranked = [*((mark, others[mark][0]) for mark in "oedcba"), ("|", 0.25), ("|", 2.2),
-              (".", start_m), ("0", mark_m)]
-    columns = [car] + [(mark, round(at_m * m_to_px)) for mark, at_m in ranked if at_m is not None]
-    line = render_track(scene, x_m, mark_m, others)
+    scene = Scene(x_m=start_m, left_edge_m=left_m, right_edge_m=left_m + track_m,
+                  width_px=width_px, m_to_px=m_to_px, **ALL_MARKS)
+    cars = cars_of(scene, replace(scene, CR=0.5))  # a changed example: the film has all of them
+    places_m = dict(zip(cars, places, strict=True))
+    first_m = min(0, left_m)
+    ranked = [(mark, places_m[mark]) for mark in "*+oedcba"]
+    ranked += [("|", left_m), ("|", left_m + track_m), (".", start_m)]
+    if hit_m is not None:
+        ranked.append(("0", hit_m))
+    columns = [(mark, round((x_m - first_m) * m_to_px)) for mark, x_m in ranked]
+    _, car_px = columns[0]
+    if car_px < 0:
+        columns[0] = "<", 0
+    elif car_px >= width_px:
+        columns[0] = ">", width_px - 1
+    line = render_track(scene, places_m, hit_m)
     assert len(line) == width_px
     for column, shown in enumerate(line):
         here = [mark for mark, at_px in columns if at_px == column]
@@ -36,10 +46,13 @@ def test_every_column_shows_the_first_of_the_marks_that_belong_there(
 
 
 @pytest.mark.parametrize(("setting", "mark"), [
-    ("show_start_mark", "."), ("show_collision_mark", "0")])
+    ("show_start_mark", "."), ("show_collision_mark", "0"), ("show_exact_mark", "o"),
+    ("show_methods", "a"), ("show_methods", "e")])
 def test_a_mark_that_is_off_is_not_drawn(setting: str, mark: str) -> None:
-    assert mark in render_track(Scene(**ALL_MARKS), 0.5, 1.5, {})
-    assert mark not in render_track(Scene(**ALL_MARKS | {setting: False}), 0.5, 1.5, {})
+    for shown in (True, False):
+        scene = Scene(**ALL_MARKS | {setting: shown})
+        places_m = {each: 0.4 + number / 10 for number, each in enumerate(cars_of(scene, None))}
+        assert (mark in render_track(scene, places_m, 1.8)) is shown
 
 
 @pytest.mark.parametrize(("words", "start", "seen"), [
@@ -58,14 +71,23 @@ def test_each_letter_stands_where_the_film_of_its_method_has_the_car(
             assert line.find(letter) == column or (
                 letter not in line and (column == -1 or line[column] in hides))
     assert set(seen) <= set("".join(shown)) - set(" |*<>.0")
-    assert not set(marks) & set("".join(film(capsys, *asked, "show_methods=False").lines))
 
 
-@pytest.mark.parametrize(("truth", "text"), [
+@pytest.mark.parametrize(("true_m", "text"), [
     (None, "x =  -1.25, v = 12.50, FPS =  60"),
-    ((-1.0, 3.0), "x =  -1.25, v = 12.50, FPS =  60, err = -2.50e-01")])
-def test_the_details(truth: tuple[float, float] | None, text: str) -> None:
-    assert details_text(-1.25, 12.5, 59.6, truth) == text
+    (-1.0, "x =  -1.25, v = 12.50, FPS =  60, err = -2.50e-01")])
+def test_the_details(true_m: float | None, text: str) -> None:
+    assert details_text(-1.25, 12.5, 59.6, true_m) == text
+
+
+@pytest.mark.parametrize(("walls", "columns"), [
+    ("left_edge_m=-1 right_edge_m=1 x_m=0 m_to_px=20", [0, 20, 40]),
+    ("left_edge_m=-9 right_edge_m=-7 x_m=-8 m_to_px=20", [0, 20, 40]),
+    ("left_edge_m=1 right_edge_m=3 x_m=2 m_to_px=20", [20, 40, 60])])
+def test_a_track_that_begins_left_of_0_is_drawn_from_its_left_wall(
+        walls: str, columns: list[int], capsys: Capture) -> None:
+    line, = film(capsys, "99", *walls.split(), "show_exact_mark=False", "--frames", "1").lines
+    assert [line.find("|"), line.find("*"), line.rfind("|")] == columns
 
 
 def test_details_and_marks_of_the_lesson_s_films(capsys: Capture) -> None:

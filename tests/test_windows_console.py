@@ -18,7 +18,7 @@ def windows(monkeypatch: pytest.MonkeyPatch, is_console: bool) -> ModuleType:
         typed=typed, kbhit=lambda: bool(typed), getwch=typed.popleft))
     for name in ("select", "termios", "tty"):
         monkeypatch.setitem(sys.modules, name, None)
-    for name in ("SIGHUP", "SIGQUIT"):
+    for name in ("SIGHUP", "SIGQUIT", "SIGTSTP", "SIGCONT"):
         monkeypatch.delattr(signal, name, raising=False)
     monkeypatch.setattr("os.isatty", lambda number: number == 0 or is_console)
     monkeypatch.setattr(sys, "platform", "win32")
@@ -40,6 +40,6 @@ def test_the_console_gives_its_keys_and_no_arrows_and_a_pipe_has_none(
     before = {name: signal.getsignal(name) for name in (signal.SIGINT, signal.SIGTERM)}
     with module.taken_keys() as taken:
         assert taken.texts_before("?")[0].startswith("Keys here" if is_console else "No keys here")
-        assert module.terminal_keys() == keys
+        assert module.terminal_keys() == list(keys)
     for name, handler in before.items():
         signal.signal(name, handler)
