@@ -320,7 +320,7 @@ def step(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> Moved:
 # this sum is 1/(1 - CR). The moment at which they end is called the Zeno point. From then on the
 # ball is at rest. Nobody can follow infinitely many hops one by one. So a ball that would rise less
 # than GRAZE_M is at rest here. After a drop from 2 m this is at bounce 55 if CR is 0.8, and at
-# bounce 604 if CR is 0.98.
+# bounce 605 if CR is 0.98.
 
 GRAZE_M = 5e-11  # far more than the round-off of a position, and less than an atom's width
 

@@ -174,6 +174,13 @@ class Terminal(contextlib.AbstractContextManager["Terminal"]):
         else:
             os.write(self.ours, keys.encode())
 
+    def stop(self, key: str) -> None:
+        """Stop what runs in the foreground of a shell: by Ctrl-Z, or by SIGSTOP."""
+        if key == "SIGSTOP":
+            os.killpg(os.tcgetpgrp(self.ours), signal.SIGSTOP)
+        else:
+            self.press(key)
+
     def hang_up(self) -> None:
         """Take the terminal away."""
         nothing = os.open(os.devnull, os.O_RDWR)

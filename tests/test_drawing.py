@@ -4,7 +4,7 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from airtrack import METHODS, Scene, cars_of, details_text, render_track
@@ -19,7 +19,8 @@ metres = near | st.floats(-1e6, 1e6)
 
 @given(places=st.lists(metres, min_size=8, max_size=8), hit_m=metres | st.none(), start_m=near,
        left_m=st.sampled_from([0.25, -0.5]) | st.floats(-3, 3), track_m=st.floats(0.01, 5),
-       width_px=st.integers(10, 200), m_to_px=st.floats(1, 100))
+       width_px=st.integers(10, 200), m_to_px=st.floats(1, 20))
+@settings(max_examples=500)
 def test_every_column_shows_the_first_of_the_marks_that_belong_there(
         places: list[float], hit_m: float | None, start_m: float, left_m: float, track_m: float,
         width_px: int, m_to_px: float) -> None:

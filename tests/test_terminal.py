@@ -183,10 +183,7 @@ def test_ctrl_z_gives_the_terminal_back_and_fg_takes_it_again(key: str, shell: T
     shell.press(f"{shlex.join(quick())}\n")
     shell.until("p holds the text.", "FPS")
     for _ in range(2):
-        if key == "SIGSTOP":
-            os.killpg(os.tcgetpgrp(shell.ours), signal.SIGSTOP)
-        else:
-            shell.press(key)
+        shell.stop(key)
         shell.until("topped", "% ")  # bash: Stopped, dash: Suspended or Stopped
         assert key == "SIGSTOP" or is_given_back(shell)
         shell.press("fg\n")
@@ -199,6 +196,27 @@ def test_ctrl_z_gives_the_terminal_back_and_fg_takes_it_again(key: str, shell: T
     shell.press("x")
     shell.until("Next:", "% ")
     assert is_given_back(shell)
+    shell.press("exit\n")
+    shell.ends(0)
+
+
+def test_a_film_in_the_background_stands_still_and_fg_takes_the_terminal_again(
+        shell: Terminal) -> None:
+    shell.press(f"{shlex.join(quick())}\n")
+    shell.until("p holds the text.", "FPS")
+    shell.press("\x1a")
+    shell.until("topped", "% ")
+    shell.press("bg\n")
+    shell.until("% ")
+    shell.press("echo sh''ell\n")
+    shell.until("shell", "% ")
+    shell.press("fg\n")
+    shell.until("FPS")
+    shell.press("s")
+    shell.until("paused after frame ")
+    assert has_keys_singly(shell)
+    shell.press("x")
+    shell.until("Next:", "% ")
     shell.press("exit\n")
     shell.ends(0)
 
@@ -230,12 +248,13 @@ def test_ctrl_z_where_no_shell_could_continue_it_does_not_stop_it(film: Terminal
     film.ends_at_x()
 
 
-def test_a_film_that_is_stopped_and_killed_ends() -> None:
+@pytest.mark.parametrize("key", ["\x1a", "SIGSTOP"], ids=["Ctrl-Z", "SIGSTOP"])
+def test_a_film_that_is_stopped_and_killed_ends(key: str) -> None:
     with Terminal(*BASH, PS1="% ") as shell:
         shell.until("% ")
         shell.press(f"{shlex.join(quick())}\n")
         shell.until("p holds the text.", "FPS")
-        shell.press("\x1a")
+        shell.stop(key)
         shell.until("Stopped", "% ")
         shell.press("p=$(jobs -p); kill %1; while kill -0 $p; do sleep 0.1; done; echo go''ne\n")
         shell.until("gone", "% ")
@@ -271,7 +290,7 @@ def test_a_signal_while_the_terminal_is_taken_leaves_it_as_found() -> None:
 
 def test_a_signal_that_was_ignored_from_the_start_stays_ignored() -> None:
     with Terminal("sh", "-c", "trap '' HUP; exec \"$@\"", "sh", *quick()) as terminal:  # nohup
-        terminal.until("FPS")
+        terminal.until("p holds the text.", "FPS")
         terminal.press("SIGHUP")
         terminal.until("FPS", "FPS")
         terminal.ends_at_x()
