@@ -306,15 +306,15 @@ else:
             return
         found = termios.tcgetattr(0)
 
-        # Neither of these may touch the terminal while the shell has it, as after Ctrl-Z and bg.
         def take(*_: object) -> None:
+            # In the background, as after bg, the system stops the program here until fg.
             with suppress(OSError, termios.error):  # the terminal itself may be gone
-                if os.tcgetpgrp(0) == os.getpgrp():
-                    # Without TCSANOW, setcbreak would throw away the keys that wait.
-                    tty.setcbreak(0, termios.TCSANOW)
+                # Without TCSANOW, setcbreak would throw away the keys that wait.
+                tty.setcbreak(0, termios.TCSANOW)
 
         def give_back() -> None:
             with suppress(OSError, termios.error):
+                # A program that was stopped by Ctrl-Z and then killed has given it back already.
                 if os.tcgetpgrp(0) == os.getpgrp():
                     # TCSAFLUSH throws away the keys that wait, so that the shell does not get them.
                     termios.tcsetattr(0, termios.TCSAFLUSH, found)
@@ -578,7 +578,8 @@ def handle(names: list[str], handler: Any) -> None:
 
 def end_by_signal(number: int, _: object) -> NoReturn:
     """End the program as shells expect it, with 128 + the signal's number."""
-    handle(ENDING_SIGNALS, ignore)  # a second one must not disturb the end
+    # A second signal must not disturb the end, and the terminal is not taken again.
+    handle([*ENDING_SIGNALS, "SIGCONT"], ignore)
     sys.exit(128 + number)
 
 def ignore(number: int, _: object) -> None:

@@ -347,10 +347,11 @@ def test_the_picture_has_each_point_at_its_place_and_a_wall_of_one_pixel(capsys:
 def test_a_row_is_out_before_the_next_is_measured_and_ctrl_c_ends_it_without_a_word(
         command: str, last: int, rows: list[bytes], monkeypatch: pytest.MonkeyPatch,
         capsys: Capture) -> None:
-    out = io.BytesIO()
+    out, out_by_then = io.BytesIO(), list[bytes]()
 
     def interrupted(scene: Scene, fps: int, cut: int) -> list[Sample]:
         if (scene.motion, fps) == ("backward", last):
+            out_by_then.append(out.getvalue())
             raise KeyboardInterrupt
         return [Sample(1.0, 0.0, 1.0, 0.0)] * 4
 
@@ -358,7 +359,8 @@ def test_a_row_is_out_before_the_next_is_measured_and_ctrl_c_ends_it_without_a_w
     monkeypatch.setattr(airtrack, "cost_us", lambda scene, fps: 1.0)
     monkeypatch.setattr("sys.stdout", io.TextIOWrapper(out))
     assert main([command]) == 130
-    assert re.findall(rb"(?m)^( +[136]0|\w+ \+ \w+)  ", out.getvalue()) == rows
+    assert re.findall(rb"(?m)^( +[136]0|\w+ \+ \w+)  ", out_by_then[0]) == rows
+    assert b" 10: x_m=2 v_mps=0 a_mps2=-2 CR=1, walls at" in out_by_then[0]
     assert capsys.readouterr().err == ""
 
 

@@ -464,9 +464,11 @@ def test_the_figures_of_example_13() -> None:
     says("LESSON", "It turned at {:.2f} m. The `o` turned at {:.2f} m, a line earlier", max(xs),
          max(true_xs))
     assert (xs.index(max(xs)), true_xs.index(max(true_xs))) == (12, 11)
-    says("LESSON", "That is {:.0f} cm in line 13", 100 * (xs[12] - true_xs[12]))
-    says("LESSON", "grew from {:.3f} to {:.3f} J/kg, by a\u00b2 dt\u00b2/2 = {:.2f} J/kg",
-         energy(13, 0.25, 2.48), energy(13, *found[12][:2]), 2**2 * 0.1**2 / 2)
+    says("LESSON", "That is {:.0f} cm in line 15", 100 * (xs[14] - true_xs[14]))
+    says("LESSON", "is worth |a| * 0.01 m = {:.2f} J/kg. After 15 steps that is {:.2f} J/kg",
+         2 * 0.01, 15 * 0.02)
+    says("LESSON", "the energy grew from {:.3f} to {:.3f} J/kg", energy(13, 0.25, 2.48),
+         energy(13, *found[14][:2]))
 
 
 def test_the_energies_of_example_8() -> None:
@@ -485,6 +487,9 @@ def test_the_energies_of_example_8() -> None:
          high - low, depth_2_m, high_2 - low_2)
     says("LESSON", "it comes back to {:.2f} m, then to {:.0f} m", *(
         max(x_m for x_m, *_ in found[a:b]) for a, b in ((14, 38), (40, 60))))
+    says("LESSON", "| first return | {:.2f} J/kg |", high - 13 * 0.02)
+    says("LESSON", "The first bounce gives {:.2f}, or {:.0f} cm", high - low, 200 * depth_m)
+    says("LESSON", "The second gives {:.2f}, or {:.0f} cm", high_2 - low_2, 200 * depth_2_m)
     energies = [energy(8, x_m, v_mps) for x_m, v_mps, _ in found]
     says("LESSON", "says least {:.2f} and most {:.2f}", min(energies), max(energies))
 

@@ -5,7 +5,6 @@ must come, however slow the machine is.
 """
 
 import importlib.util
-import os
 import re
 import shlex
 import shutil
