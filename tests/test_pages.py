@@ -380,7 +380,8 @@ def test_four_rows_of_the_map() -> None:
     for row in told[1:]:
         (name, letters), = re.findall(r"(\w+ \+ \w+) +(.*)", row)
         assert letters.split() == rows[name]
-    says("README", "a map of all {}, at CR = {}", len(rows), EXAMPLES[20].settings["CR"])
+    own = [name for name in rows if name.split()[0] not in ("forward", "backward", "exact")]
+    says("README", "a map of all {}, at CR = {}", len(rows) - len(own), EXAMPLES[20].settings["CR"])
 
 
 def test_the_bounds_of_k_are_those_of_the_listing() -> None:
