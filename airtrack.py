@@ -1038,7 +1038,7 @@ def stability(scene: Scene, title: str) -> None:
 #         next = CR (hop + k) + k'
 # Here hop and next are the lengths of a hop and of the hop after it, both in frames. The number k
 # belongs to the hop, and k' to the next hop. It says how wrong the hop is. A true car comes back to
-# the floor as fast as it left it. This car ends its hop faster than it began it, by k g dt. If k
+# the floor as fast as it left it. This car comes back faster by k g dt or, if k < 0, slower. If k
 # and k' were 0, the law would be the truth. It is found in three steps, beside a drawn hop.
 #
 # Here is a hop with exact + surface. CR is 1, g is 4 m/s^2, dt is 0.1 s, and a column is 1 cm.
