@@ -398,9 +398,9 @@ def methods_of(scene: Scene) -> dict[str, Scene]:
         scenes[letter] = replace(scene, motion=motion, correction=correction)
     return scenes
 
-def method_text(scene: Scene) -> str:
-    """The method of a scene in words, as in backward + rebound."""
-    return f"{scene.motion} + {scene.correction}"
+def method_text(motion: str, correction: str) -> str:
+    """A method in words, as in backward + rebound."""
+    return f"{motion} + {correction}"
 
 # ==== 5. Drawing ================================================================================
 # How does a frame become a line of text, and how is a scene told in words?
@@ -478,7 +478,8 @@ def start_text(scene: Scene) -> str:
 
 def scene_text(scene: Scene) -> str:
     """The whole scene but for its drawing: cars whose scenes have the same text move alike."""
-    text = f"{start_text(scene)}; {method_text(scene)}, {scene.fps_target:.10g} FPS"
+    method = method_text(scene.motion, scene.correction)
+    text = f"{start_text(scene)}; {method}, {scene.fps_target:.10g} FPS"
     if scene.jitter > 0:
         text += f", jitter={scene.jitter:.10g}"
     if scene.use_observed_dt:
@@ -723,7 +724,7 @@ def tell_cars(cars: dict[str, Car]) -> None:
     print("                       its true car      first      least       most       last")
     for mark in marks:
         car = cars[mark]
-        name = method_text(car.scene)
+        name = method_text(car.scene.motion, car.scene.correction)
         off = off_text(car)
         if mark == "o":
             name, off = "the truth", ""
@@ -912,7 +913,7 @@ def conclude(points: dict[str, list[Point]], pixel_m: float) -> None:
     """Answer the question: which methods stay within a pixel, and what do they cost?"""
     answers = []
     for letter, (motion, correction) in METHODS.items():
-        name = f"{motion} + {correction}"
+        name = method_text(motion, correction)
         answer = None
         for fps, error_m, us in reversed(points[letter]):
             if error_m > pixel_m:
@@ -938,7 +939,7 @@ def chart(scene: Scene, title: str) -> None:
         "Method e is the truth's own method, so its error can be nothing but round-off.")
     points = measure(scene)
     picture(points, pixel_m)
-    legend = [f"{letter}: {method_text(method)}" for letter, method in methods_of(scene).items()]
+    legend = [f"{letter}: {method_text(*method)}" for letter, method in METHODS.items()]
     say(f"{', '.join(legend)}. Error to the right, cost downwards: the best are in the upper left. "
         "Where letters meet there is a +.")
     conclude(points, pixel_m)
@@ -1016,7 +1017,7 @@ def stability(scene: Scene, title: str) -> None:
             if correction in EXACT_ONLY and motion != "exact":
                 continue
             method = replace(scene, motion=motion, correction=correction)
-            row = method_text(method).ljust(20)
+            row = method_text(motion, correction).ljust(20)
             for fps in MAP_FPS:
                 letters = [verdict(method, fps, cut) for cut in range(CUTS)]
                 row += cell(letters).rjust(6)
@@ -1136,8 +1137,8 @@ def say_before(scene: Scene, wanted: Wanted) -> None:
     say(", ".join([title, *wanted.typed.values()]))
     text = scene_text(scene)
     if scene.show_methods:
-        for letter, method in methods_of(truth_of(scene)).items():
-            text += f"; {letter}: {method_text(method)}"
+        for letter, (motion, correction) in METHODS.items():
+            text += f"; {letter}: {method_text(motion, correction)}"
     say(text)
 
 def film(scene: Scene, wanted: Wanted) -> None:

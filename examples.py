@@ -564,7 +564,8 @@ def print_for_now(text: str) -> None:
 
 # ==== Taking and giving back ====================================================================
 
-ENDING_SIGNALS = ["SIGINT", "SIGTERM", "SIGHUP", "SIGQUIT"]
+KILLING_SIGNALS = ["SIGTERM", "SIGHUP", "SIGQUIT"]
+ENDING_SIGNALS = ["SIGINT", *KILLING_SIGNALS]
 
 # The signals that were ignored when the program began stay ignored: nohup relies on this.
 IGNORED = [each for each in signal.valid_signals() if signal.getsignal(each) == signal.SIG_IGN]
@@ -592,12 +593,12 @@ def taken_keys() -> Iterator[Keys]:
     # on a signal. So Python's handlers come after the window.
     handle(["SIGINT"], signal.SIG_DFL)
     keys = Keys(Window())
-    handle(["SIGTERM", "SIGHUP", "SIGQUIT"], end_by_signal)
+    handle(KILLING_SIGNALS, end_by_signal)
     handle(["SIGINT"], keys.press_ctrl_c)
     try:
         with taken_terminal():
             yield keys
     finally:
         keys.window.close()
-    handle(["SIGTERM", "SIGHUP", "SIGQUIT"], signal.SIG_DFL)
+    handle(KILLING_SIGNALS, signal.SIG_DFL)
     handle(["SIGINT"], signal.default_int_handler)

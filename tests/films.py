@@ -187,13 +187,6 @@ class Terminal(contextlib.AbstractContextManager["Terminal"]):
         os.dup2(nothing, self.ours)
         os.close(nothing)
 
-    def until_read(self) -> None:
-        """Wait until the program has read the keys that were typed."""
-        deadline_s = time.monotonic() + PATIENCE_S
-        while struct.unpack("i", fcntl.ioctl(self.theirs, termios.FIONREAD, bytes(4)))[0]:
-            assert time.monotonic() < deadline_s, "the keys were not read"
-            time.sleep(0.01)
-
     def read(self, wait_s: float) -> bool:
         """Read some of what there is; False if nothing came in that time."""
         is_ready = bool(select.select([self.ours], [], [], wait_s)[0])
