@@ -3,16 +3,22 @@
 So its film is a graph: position to the right, time downwards.
 
 A WORD is one of these, in any order:
-    EXAMPLE      the number of an example; else 0, or 10 for chart and stability
+    EXAMPLE      the number of an example (without it 0, for a map or chart 10)
     d            details after each line: position x, velocity v, frame rate FPS
                  and, if the true car o is drawn, err: how far the car is to the
                  right of the o
     NAME=VALUE   a setting that replaces the example's own
-    chart        no film, but speed against accuracy: how dear and how wrong
-                 each method is
+    chart        no film, but speed against accuracy: what each method costs,
+                 and how wrong it is
     stability    no film, but the map: at which frame rates each method fails
 
 For example: python airtrack.py 10 d fps_target=30
+
+In a film, * is the car and | is a wall. < or > is the car, too, when it is out of
+the picture. 0 is where a move ended beyond a wall, and . is the start. o is the true
+car. + is the car of the example as it is, if you changed something. a to e are the
+cars of five methods.
+
 README.md says what this is good for. .github/lesson.md is a lesson for a class.
 """
 # What is where?
@@ -56,7 +62,7 @@ from itertools import pairwise
 from statistics import fmean
 from typing import Any, NamedTuple, TextIO, TypeVar
 
-from examples import CHANGED, EXAMPLES, OWN_SCENE, Keys, NoKeys, taken_keys
+from examples import CHANGED, EXAMPLES, OWN_SCENE, Example, Keys, NoKeys, taken_keys
 
 # ==== 1. Moving =================================================================================
 # Where is the car dt_s later, if there are no walls?
@@ -109,7 +115,7 @@ MOTIONS = {"forward": forward, "backward": backward, "exact": exact}
 # Here is one collision at the left wall. There, inward is to the left. The motion is exact,
 # inward_mps2 is 20, CR is 0.8, and a column is 1 cm. In one frame of 0.1 s the car moves from the
 # start to the 0, which is 8 cm beyond the wall. Then each correction gives the car a new place (*).
-# E is the energy for each kilogram: inward_mps^2/2 - inward_mps2 * depth_m, in J/kg.
+# E is the energy in J/kg: v^2/2 - a * depth, where v is inward_mps and a is inward_mps2.
 #
 #                                            depth_m   inward_mps   E
 #     start              |           *       -0.120       1.00     2.90
@@ -221,7 +227,7 @@ EXACT_ONLY = ["rewind", "replay"]  # they need the exact motion
 # ==== 3. The scene and a frame ==================================================================
 # What does a run start from, and how does the car get from one frame to the next?
 
-Value = TypeVar("Value")
+Value = TypeVar("Value")  # only for the type checker: a setting is of the type of its default
 
 def setting(default: Value, meaning: str, **allowed: Any) -> Value:
     """A setting of a scene: its default, its meaning and what is allowed.
@@ -294,15 +300,17 @@ def step(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> Moved:
     free_m, free_mps = move(x_m, v_mps, scene.a_mps2, dt_s)
     if scene.left_edge_m <= free_m <= scene.right_edge_m:
         return free_m, free_mps, None
-    # The move ended beyond a wall. Count from this wall, and into it. Inward is 1 at the right
-    # wall, where into the wall is to the right, and -1 at the left wall.
+    # The move ended beyond a wall. Count from this wall, and into it: at the right wall this is to
+    # the right, too, so the signs stay. At the left wall they change.
     wall_m = scene.to_track(free_m)
-    inward = 1 if free_m > wall_m else -1
-    depth_m = inward * (free_m - wall_m)
+    sign = 1 if free_m > wall_m else -1
+    depth_m = sign * (free_m - wall_m)
+    inward_mps = sign * free_mps
+    inward_mps2 = sign * scene.a_mps2
     correct = CORRECTIONS[scene.correction]
-    depth_m, inward_mps = correct(depth_m, inward * free_mps, inward * scene.a_mps2, scene.CR)
+    new_depth_m, new_inward_mps = correct(depth_m, inward_mps, inward_mps2, scene.CR)
     # Count from x = 0 and to the right again.
-    return wall_m + inward * depth_m, inward * inward_mps, free_m
+    return wall_m + sign * new_depth_m, sign * new_inward_mps, free_m
 
 # ==== 4. The truth ==============================================================================
 # What would the car really do?
@@ -363,9 +371,9 @@ def replay(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> Moved:
     while rise_mps != 0 or g_mps2 != 0:  # otherwise nothing moves the ball
         wall, flight_s, speed_mps = next_bounce(h_m, rise_mps, g_mps2, room_m)
         if scene.CR == 1 and wall == "floor" and last_wall == "floor":
-            # From now on all hops last equally long. Leave out those that fit in as a whole. What
-            # remains is the remainder of a division (%), also for numbers with a fraction.
-            remaining_s %= flight_s
+            # From now on all hops last equally long, flight_s each. Leave out the whole hops: what
+            # is left over is the remainder of the division remaining_s / flight_s.
+            remaining_s = remaining_s % flight_s
         if flight_s > remaining_s:
             break  # the frame ends before the ball gets there
         remaining_s -= flight_s
@@ -523,8 +531,9 @@ class Pace:
     def __init__(self, scene: Scene, keys: Keys | NoKeys) -> None:
         self.scene = scene
         self.keys = keys
-        self.shown_s = time.perf_counter() - planned_length(scene, 1)  # so that frame 1 is due now
-        self.due_s = self.shown_s
+        # As if a frame 0 had just been shown for its whole length, so that frame 1 is due now.
+        self.shown_s = time.perf_counter() - planned_length(scene, 1)  # when the last frame came
+        self.due_s = self.shown_s  # when it was due
 
     def wait(self, frames: int, t_s: float) -> tuple[float, float]:
         """Wait until the next frame is due. frames and t_s say how far the film is.
@@ -548,8 +557,8 @@ class Pace:
         if not was_timed or now_s > self.due_s + STALL_S:
             self.due_s = now_s
         # A frame with a pause or a stall counts as long as planned. Otherwise the car would leap.
-        is_long = not was_timed or lasted_s > planned_s + STALL_S
-        if self.scene.use_observed_dt and not is_long:
+        was_disturbed = not was_timed or lasted_s > planned_s + STALL_S
+        if self.scene.use_observed_dt and not was_disturbed:
             return lasted_s, fps
         return planned_dt(self.scene, frames + 1), fps
 
@@ -578,7 +587,7 @@ class Car:
         self.rest_began_s: float | None = None  # since when it lies still, if it does
 
     def move(self, dt_s: float) -> None:
-        """Make a frame of dt_s. The true car moves first, as the others are compared with it."""
+        """Make a frame of dt_s. The true car must have made it before, for it is compared with."""
         self.x_m, self.v_mps, self.mark_m = step(self.scene, self.x_m, self.v_mps, dt_s)
         self.frames += 1
         self.t_s += dt_s
@@ -616,22 +625,23 @@ class Car:
 
     def is_at_rest(self) -> bool:
         """Whether it rests on its floor or, without an acceleration, does not move at all."""
-        scene = self.scene
-        if scene.a_mps2 == 0:
-            _, first_m = self.last[0]
-            return self.has_last_frames() and self.v_mps == 0 and self.x_m == first_m
-        if scene.correction == "replay":
-            return self.lies_still()  # until then it hops, however low
-        # Other methods may never leave the car quite still. So it is enough that its mean distance
-        # from the floor is small, and that it is no faster than it becomes in the last frames.
-        floor_m = scene.floor_m()
-        if abs(self.x_m - floor_m) > REST_M * self.rest_frames:
-            return False  # this distance alone makes the mean too large
         if self.lies_still():
             return True
         if not self.has_last_frames():
             return False
-        if abs(self.v_mps) > abs(scene.a_mps2) * self.rest_frames / scene.fps_target:
+        scene = self.scene
+        if scene.a_mps2 == 0:
+            _, first_m = self.last[0]
+            return self.v_mps == 0 and self.x_m == first_m
+        if scene.correction == "replay":
+            return False  # a true car that does not lie still hops, however low
+        # Other methods may never leave the car quite still. So it is enough that its mean distance
+        # from the floor is small, and that it is no faster than it could become in these frames.
+        floor_m = scene.floor_m()
+        if abs(self.x_m - floor_m) > REST_M * self.rest_frames:
+            return False  # this distance alone makes the mean too large
+        gained_mps = abs(scene.a_mps2) * self.rest_frames / scene.fps_target
+        if abs(self.v_mps) > gained_mps:
             return False
         return fmean([abs(x_m - floor_m) for _, x_m in self.last]) <= REST_M
 
@@ -720,6 +730,7 @@ def end_text(car: Car) -> str:
 def tell_cars(cars: dict[str, Car]) -> None:
     """Print a table with a row for each car, and a line for its hops and its end."""
     marks = [mark for mark in "*+oabcde" if mark in cars]
+    print()
     print("                      furthest from     energy (J/kg; 0: at rest on its floor)")
     print("                       its true car      first      least       most       last")
     for mark in marks:
@@ -740,24 +751,28 @@ def tell_cars(cars: dict[str, Car]) -> None:
             row += hops_text(car.collisions) + "; "
         print(row + end_text(car))
 
-def run(cars: dict[str, Car], has_details: bool, max_frames: int, keys: Keys | NoKeys) -> None:
-    """Show the film until a key, the car at rest or max_frames ends it, and say which it was."""
+def run(cars: dict[str, Car], view: Scene, has_details: bool, max_frames: int,
+        keys: Keys | NoKeys) -> None:
+    """Show the film until a key, the car at rest or max_frames ends it, and say which it was.
+
+    view is the scene as it is drawn: in a narrow terminal it is smaller.
+    """
     car = cars["*"]
     scene = car.scene
     pace = Pace(scene, keys)
     moving = list(dict.fromkeys([car.truth, *cars.values()]))  # the true car first, each car once
-    why = ""
-    while not why:
+    while True:
         # Wait until the next frame is due.
         dt_s, fps = pace.wait(car.frames, car.t_s)
         if keys.why_quit:
+            why = keys.why_quit
             break
         # Move the cars, and settle their collisions.
         for each in moving:
             each.move(dt_s)
         # Draw the frame.
         places_m = {mark: each.x_m for mark, each in cars.items()}
-        line = render_track(scene, places_m, car.mark_m)
+        line = render_track(view, places_m, car.mark_m)
         if keys.has_colours:
             line = line.translate(COLOURED_MARKS)
         if has_details:
@@ -766,10 +781,10 @@ def run(cars: dict[str, Car], has_details: bool, max_frames: int, keys: Keys | N
         # Is it over?
         if scene.auto_off and car.rest_began_s is not None:
             why = "the car is at rest"
-        elif car.frames >= max_frames:
+            break
+        if car.frames >= max_frames:
             why = "that is the frame limit"
-    if keys.why_quit:
-        why = keys.why_quit
+            break
     print(f"Stopped after {car.frames} frames, t = {car.t_s:.2f} s: {why}.", flush=True)
 
 # ==== 7. The chart: speed against accuracy ======================================================
@@ -1033,16 +1048,9 @@ def stability(scene: Scene, title: str) -> None:
 # floor. Up is away from the floor, and g is the size of a. All frames last dt. The car does not
 # meet the other wall.
 #
-# A hop lasts from a frame in which a collision is found to the next such frame. Count it in frames.
-# In truth each hop lasts CR times as long as the hop before. With surface and rebound it does not.
-# For these two corrections the law is
-#         next = CR (hop + k) + k'
-# Here hop and next are the lengths of a hop and of the hop after it, both in frames. The number k
-# belongs to the hop, and k' to the next hop. It says how wrong the hop is. A true car comes back to
-# the floor as fast as it left it. This car comes back faster by k g dt or, if k < 0, slower. If k
-# and k' were 0, the law would be the truth. It is found in three steps, beside a drawn hop.
-#
-# Here is a hop with exact + surface. CR is 1, g is 4 m/s^2, dt is 0.1 s, and a column is 1 cm.
+# A hop lasts from a frame in which a collision is found to the next such frame. It begins upwards,
+# at the speed u, and ends downwards, at the speed w. Here is a hop with exact + surface. CR is 1, g
+# is 4 m/s^2, dt is 0.1 s, and a column is 1 cm.
 #     0:        *                   The hop begins on the floor (*), with u = 1.1 m/s upwards.
 #     1:        |        *
 #     2:        |             *
@@ -1050,31 +1058,43 @@ def stability(scene: Scene, title: str) -> None:
 #     4:        |           *
 #     5:        |    *
 #     6:  0     *                   The hop ends 6 cm lower (0), with w = 1.3 m/s downwards.
-# This hop has 6 frames. The drop of a hop is how much lower it ends (0) than it begins (*). Here
-# the drop is 6 cm.
+# This hop has 6 frames. A true car comes back as fast as it left: w is u. This car comes back
+# faster. The number k of a hop says by how much:
+#         w - u = k g dt                                  here 1.3 - 1.1 = k * 0.4, so k is 1/2
+# If a car comes back slower than it left, the k of this hop is negative.
 #
-# (1) Each frame of a hop adds g dt to the speed downwards. So
-#         u + w = hop g dt                                here 1.1 + 1.3 = 6 * 0.4
-# (2) Why is w not u? Ask for the energy v^2/2. The car ends the hop lower, which gives it g * drop.
-#     (The fault comes after it: surface lifts the car back to the floor and does not slow it.) And
-#     in each frame the motion gives it s g^2 dt^2/2, where s is 1 for forward, 0 for exact and -1
-#     for backward (section 1). So
-#         (w^2 - u^2)/2 = g * drop + hop * s g^2 dt^2/2   here (1.69 - 1.21)/2 = 4 * 0.06 + 0
-#     The left side is (w - u) times (u + w)/2, the mean of both speeds. By (1) this mean speed is
-#     hop g dt/2. At this speed the car goes hop g dt^2/2 in a frame. Call this length the way. Here
-#     it is 12 cm. Divide both sides by the mean speed:
-#         w - u = k g dt    with    k = s + drop/way      here k = 0 + 6/12, and 1.3 - 1.1 = k * 0.4
-# (3) Add (1) and (2), or subtract them:
-#         w = (hop + k) g dt/2    and    u = (hop - k) g dt/2
-#     For the next hop, u is (next - k') g dt/2. The bounce makes this u from the w of the hop
-#     before: it is CR w, which is CR (hop + k) g dt/2. Divide both by g dt/2, and this is the law.
-#     Here the next hop has 7 frames, a drop of 7 cm and a way of 14 cm. So k' is 1/2, too:
+# In truth each hop lasts CR times as long as the hop before. With surface and rebound it does not.
+# For these two corrections the law is
 #         next = CR (hop + k) + k'                        here 7 = 1 (6 + 1/2) + 1/2
+# Here hop and next are the lengths of a hop and of the hop after it, both in frames. The number k
+# belongs to the hop, and k' to the next hop. (The drawn hop is followed by one of 7 frames, which
+# has k' = 1/2, too.) If k and k' are 0, the law is the truth. It is found in three steps.
+# (1) Each frame of a hop adds g dt to the velocity downwards, and takes it from -u to w:
+#         w + u = hop g dt                                here 1.3 + 1.1 = 6 * 0.4
+# (2) Add w - u = k g dt to this, or subtract it. Then divide by 2:
+#         w = (hop + k) g dt/2                            here 1.3 = (6 + 1/2) * 0.2
+#         u = (hop - k) g dt/2                            here 1.1 = (6 - 1/2) * 0.2
+# (3) The next hop begins at the speed (next - k') g dt/2, as (2) holds for it, too. This is what
+#     the bounce has left of w: CR w. So next - k' is CR (hop + k), and this is the law.
+#
+# Why is w not u? A collision is found late, so a hop ends lower (0) than it begins (*). Call this
+# the drop of the hop. Here it is 6 cm. The mean velocity of the hop, downwards, is (w - u)/2. So
+# with the exact motion
+#         drop = (w - u)/2 * hop dt                       here 6 cm = 0.1 m/s * 0.6 s
+# Forward takes the velocity at the start of each frame. Upwards it is g dt/2 more than the mean
+# velocity of the frame. So each frame puts the car g dt^2/2 higher, and the hop puts it hop g
+# dt^2/2 higher. Call this length the way. Here it would be 12 cm. Backward puts the car as much
+# lower. Let s be 1 for forward, 0 for exact and -1 for backward. Then
+#         drop = (w - u)/2 * hop dt - s * way
+# Put in k g dt for w - u. Then the first term is k * way, so drop = k * way - s * way, and
+#         k = s + drop/way                                here k = 0 + 6/12
+# The drop itself is no fault: a car that falls lower gets faster. The fault comes after it: surface
+# lifts the car back to the floor, and does not slow it.
 #
 # How large is k? Take exact + surface. The hop begins on the floor. After n frames the car is
 # n dt (u - n g dt/2) above the floor. The hop ends with the first frame after which this is below
 # 0. So for n = hop it is below 0: u is less than hop g dt/2. For n = hop - 1 it is not: u is at
-# least (hop - 1) g dt/2. By (3), u is (hop - k) g dt/2. Therefore k is more than 0 and at most 1.
+# least (hop - 1) g dt/2. By (2), u is (hop - k) g dt/2. Therefore k is more than 0 and at most 1.
 # For forward and backward the same steps give 1 to 2 and -1 to 0. With rebound a hop begins above
 # the floor, so its drop may be larger, and k up to 1 larger. (This proof is longer. The tests check
 # it.) In every hop of two frames or more, at any CR, k is between these bounds:
@@ -1084,12 +1104,14 @@ def stability(scene: Scene, title: str) -> None:
 #     exact        0 to 1      0 to 2
 #     backward    -1 to 0     -1 to 1
 #
+# Which k a hop has depends on how late in a frame the car meets the floor, so on its start.
+#
 # What does k do?
-#     k > 0   The car gets too much energy. At CR = 1 each hop is longer than the hop
-#             before, by k + k' frames (G in the map). At CR < 1 the hops should die out, but many
-#             do not. Put next = hop and k' = k into the law: a hop of k (1 + CR)/(1 - CR) frames
-#             repeats for ever, if that is two frames or more (H). (A car whose hops have one frame
-#             rests.) With rebound the hops may also end in a cycle, as 7 7 8 9 9 8.
+#     k > 0   The car gets too much energy. At CR = 1 each hop is longer than the hop before, by
+#             k + k' frames (G in the map). At CR < 1 the hops should die out, but many do not. Put
+#             next = hop and k' = k into the law: a hop of k (1 + CR)/(1 - CR) frames repeats for
+#             ever (H), if this is a whole number and at least 2. (A car whose hops have one frame
+#             rests.) With rebound the hops may also end in a cycle, as 7 7 8 9 9 8 at CR = 0.8.
 #     k < 0   The car gets too little energy. At CR = 1 it should hop for ever, but its hops get
 #             shorter, and it comes to rest (L).
 #     k = 0   The car gets the right energy.
@@ -1097,12 +1119,13 @@ def stability(scene: Scene, title: str) -> None:
 # Example 19 is backward + surface at CR = 1. Its k is below 0 in each hop, so the car comes to
 # rest. Example 20 is exact + rebound at CR = 0.8. Its hops get to k = 1, so to 1 * 1.8/0.2 = 9
 # frames, and stay so: the car never comes to rest. With exact + surface at CR = 0.8 k is at most 1,
-# so the hops that repeat have 2 to 9 frames. Which k a car gets depends on its start, because the
-# start decides how late in a frame the car meets the floor.
+# so the hops that repeat have 2 to 9 frames.
 #
 # Two cases may surprise. Backward + rebound may give too much energy in one hop and too little in
-# the next, so its car gets higher and lower in turn. And with backward + surface at CR = 1, a car
-# that starts from rest may have k = 0 in each hop. Then it hops for ever, as it should.
+# the next, so its car gets higher and lower in turn. And with backward + surface at CR = 1, think
+# of a car that starts from rest. Its speed is always a whole number of g dt. Then k is 0 in each
+# hop: the car hops for ever, as it should. But such a hop meets the floor at the very end of a
+# frame. Round-off may find it there, one frame too early, and then k is -1 in this hop.
 
 # The physics ends here.
 
@@ -1120,33 +1143,25 @@ class Wanted(NamedTuple):
     is_fast: bool
     max_frames: int
 
-def unchanged_of(wanted: Wanted, scene: Scene) -> Scene | None:
-    """The scene of the example as it is, if the car of this scene moves otherwise."""
-    if wanted.number not in EXAMPLES:
-        return None
-    unchanged = scene_of(EXAMPLES[wanted.number].settings)
-    if scene_text(unchanged) == scene_text(scene):
-        return None
-    return unchanged
-
 def say_before(scene: Scene, wanted: Wanted) -> None:
     """Say which scene the film is of: its title, what the user changed, and all that moves it."""
-    title = f"{OWN_SCENE.title} (the examples are 0 to {max(EXAMPLES)})"
+    title = OWN_SCENE.title
     if wanted.number in EXAMPLES:
         title = f"Example {wanted.number}: {EXAMPLES[wanted.number].title}"
     say(", ".join([title, *wanted.typed.values()]))
     text = scene_text(scene)
     if scene.show_methods:
-        for letter, (motion, correction) in METHODS.items():
-            text += f"; {letter}: {method_text(motion, correction)}"
+        for letter, method in METHODS.items():
+            text += f"; {letter}: {method_text(*method)}"
     say(text)
 
 def film(scene: Scene, wanted: Wanted) -> None:
     """Say what to look for, leave time to guess, show the film, and say what was to be seen."""
     example = EXAMPLES.get(wanted.number, OWN_SCENE)
-    unchanged = unchanged_of(wanted, scene)
-    if unchanged is not None:
-        example = CHANGED
+    unchanged = None
+    as_it_is = scene_of(example.settings)
+    if wanted.number in EXAMPLES and scene_text(as_it_is) != scene_text(scene):
+        example, unchanged = CHANGED, as_it_is
         shows_truth = wanted.changes.get("show_exact_mark", True)
         scene = replace(scene, show_exact_mark=shows_truth)
     has_details = wanted.has_details or wanted.number == 0  # the first film shows what there is
@@ -1154,7 +1169,7 @@ def film(scene: Scene, wanted: Wanted) -> None:
     view = fitted(scene, has_details)
     if view.width_px < scene.width_px:
         say(f"The picture is drawn {view.width_px} columns wide, to fit into the terminal.")
-    cars = cars_of(view, unchanged)
+    cars = cars_of(scene, unchanged)
     taking = nullcontext(NoKeys()) if wanted.is_fast else taken_keys()
     with taking as keys:
         question = example.look_for
@@ -1164,30 +1179,35 @@ def film(scene: Scene, wanted: Wanted) -> None:
             say(text)
         keys.leave_time()
         print()
-        run(cars, has_details, wanted.max_frames, keys)
+        run(cars, view, has_details, wanted.max_frames, keys)
     if cars["*"].frames == 0:
         return
-    print()
     tell_cars(cars)
     if not wanted.is_fast:
-        print()
-        if example.seen:
-            say(example.seen)
-        else:  # nobody has seen this scene before
-            say(advice(cars["*"], 1 / scene.m_to_px))
-            say_map(wanted)
-        say_next(wanted.number)
+        say_after(cars["*"], example, wanted)
 
-def advice(car: Car, pixel_m: float) -> str:
+def say_after(car: Car, example: Example, wanted: Wanted) -> None:
+    """Say what was to be seen or, where nobody knows it, what to try. Then say what comes next."""
+    print()
+    if example.seen:
+        say(example.seen)
+    else:
+        say(advice(car))
+        on_track = [word for name, word in wanted.typed.items() if name in OF_THE_TRACK]
+        map_words = " ".join(["stability", str(wanted.number), *on_track])
+        say(f"Which methods are right here? {PYTHON} airtrack.py {map_words}")
+    following = wanted.number + 1 if wanted.number + 1 in EXAMPLES else "chart"
+    say(f"Next: {PYTHON} airtrack.py {following}")
+
+def advice(car: Car) -> str:
     """Is the car's method right for its scene? If not, what may be tried?"""
     scene = car.scene
-    off, pixel = off_text(car), f"{pixel_m:.2g} m"
+    pixel = f"a drawn pixel ({1 / scene.m_to_px:.2g} m)"
     if not car.collisions:
         return "The * has not met a wall, so this film tells nothing of its correction."
-    if car.most_off_m <= pixel_m:
-        return (f"The distance from the * to its true car was at most {off}, which is within a "
-                f"drawn pixel ({pixel}). So its method is right for this film.")
-    text = f"The * was up to {off} from its true car, which is over a drawn pixel ({pixel})."
+    if car.most_off_m <= 1 / scene.m_to_px:
+        return f"The * stayed within {pixel} of its true car. So its method is right for this film."
+    text = f"The * was up to {off_text(car)} from its true car, which is over {pixel}."
     cures = ["conserve", "rewind", "replay"]  # each is right in more frames than the one before
     if not scene.starts_on_track():
         cures = ["conserve"]
@@ -1195,26 +1215,10 @@ def advice(car: Car, pixel_m: float) -> str:
         cures = cures[cures.index(scene.correction) + 1:]
     if not cures:
         return text
-    if scene.motion == "exact":
-        return f"{text} Try correction={' or '.join(cures)}."
-    return f"{text} Try motion=exact and, at the same time, correction={' or '.join(cures)}."
-
-def say_map(wanted: Wanted) -> None:
-    """Say which map shows what the methods are worth for this scene."""
-    words = ["stability", str(wanted.number)]
-    for name, word in wanted.typed.items():
-        if name in OF_THE_TRACK:
-            words.append(word)
-    say(f"Which methods are right here? {PYTHON} airtrack.py {' '.join(words)}")
-
-def say_next(number: int) -> None:
-    """Say what to type after this film."""
-    following = str(number + 1)
-    if number == max(EXAMPLES):
-        following = "chart"
-    elif number not in EXAMPLES:
-        following = "-h"
-    say(f"Next: {PYTHON} airtrack.py {following}")
+    change = f"correction={' or '.join(cures)}"
+    if scene.motion != "exact":
+        change = f"motion=exact and, at the same time, {change}"
+    return f"{text} Try {change}."
 
 # ==== 11. Checks ================================================================================
 # Which scenes are allowed?
@@ -1246,8 +1250,7 @@ def check(scene: Scene) -> None:
             raise ValueError(f"{name} must be {allowed_text(name)}, not {value}")
     left_m, right_m = scene.left_edge_m, scene.right_edge_m
     if right_m - left_m < 0.01 - 1e-9:  # round-off: 2.21 - 2.2 is a little less than 0.01
-        raise ValueError("right_edge_m must be at least 0.01 m to the right of left_edge_m, not "
-                         f"{right_m} and {left_m}")
+        raise ValueError(f"right_edge_m must be at least {left_m} + 0.01, not {right_m}")
     needed_by = f"with correction={scene.correction}"
     if scene.correction in EXACT_ONLY and scene.motion != "exact":
         raise ValueError(f"motion must be exact {needed_by}, not {scene.motion}: choose "
@@ -1260,7 +1263,6 @@ def check(scene: Scene) -> None:
 
 FRAMES = 50_000  # then a film ends that nobody stops
 COMMANDS = {"chart": chart, "stability": stability}
-
 # The commands use these settings alone. They choose methods and frame rates themselves.
 OF_THE_TRACK = ["x_m", "v_mps", "a_mps2", "left_edge_m", "right_edge_m", "CR", "m_to_px"]
 
@@ -1290,16 +1292,12 @@ def value_of(name: str, text: str) -> Any:
         fault += f": write {name}={with_point}"
     raise ValueError(fault)
 
-def unknown(words: list[str]) -> str:
-    """The error text for words of which the first means nothing. What may have been meant?"""
-    word, *following = words
+def unknown(word: str, following: list[str]) -> str:
+    """The error text for a word that means nothing. What may have been meant?"""
     name, _, text = word.replace(":", "=").partition("=")
     if name in SETTINGS:  # CR 0.7, CR = 0.7 or CR:0.7
-        value = "VALUE"
-        for each in [text, *following]:
-            if is_allowed(name, converted(name, each)):
-                value = each
-                break
+        values = [each for each in [text, *following] if is_allowed(name, converted(name, each))]
+        value = values[0] if values else "VALUE"
         return f"unknown word {word}: write {name}={value}, without spaces"
     hints = OTHER_NAMES | {each.lower(): each for each in [*SETTINGS, *COMMANDS]}
     cutoff = 1.0 if len(name) == 1 else 0.6  # a single letter must be in the table itself
@@ -1314,8 +1312,7 @@ def unknown(words: list[str]) -> str:
 def epilog() -> str:
     """What -h shows at its end: the examples, the methods and the settings."""
     lines = ["examples (any other whole number is for a scene of your own):"]
-    for number, example in EXAMPLES.items():
-        lines.append(f"  {number:2}  {example.title}")
+    lines += [f"  {number:2}  {example.title}" for number, example in EXAMPLES.items()]
     lines += ["", "motions and corrections:"]
     for name, method in [*MOTIONS.items(), *CORRECTIONS.items(), ("replay", replay)]:
         first_line = str(method.__doc__).splitlines()[0]
@@ -1334,8 +1331,7 @@ def make_parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter)  # it leaves our lines as they are
     parser.add_argument("words", nargs="*", metavar="WORD", help="see above")
     parser.add_argument("-d", "-D", dest="details", action="store_true", help="as the word d")
-    parser.add_argument("--fast", action="store_true",
-                        help="no waiting, no keys and no colours: for a pipe or a file")
+    parser.add_argument("--fast", action="store_true", help="no waiting, keys, colours or advice")
     parser.add_argument("--frames", type=int, metavar="N", default=FRAMES,
                         help=f"stop after N frames; without it, after {FRAMES}")
     return parser
@@ -1356,7 +1352,7 @@ def read_command_line(parser: argparse.ArgumentParser, argv: list[str]) -> Wante
             changes[name] = value_of(name, text)
             typed[name] = word
         else:
-            raise ValueError(unknown(options.words[place:]))
+            raise ValueError(unknown(word, options.words[place + 1:]))
     if len(commands) > 1 or len(numbers) > 1:
         raise ValueError(f"one command and one EXAMPLE at a time, not {commands + numbers}")
     command, number = "film", 0
@@ -1405,10 +1401,7 @@ def flush(stream: TextIO | None) -> None:
         raise
 
 def main(argv: list[str] | None = None) -> int:
-    """Do what argv or, without it, the command line asks for. Returns the exit status.
-
-    After -h and for wrong input argparse raises SystemExit with the status.
-    """
+    """Obey argv, else the command line. Returns the exit status. (argparse raises SystemExit.)"""
     if argv is None:
         argv = sys.argv[1:]
     argv = [word.replace("\N{MINUS SIGN}", "-") for word in argv]  # as pages print it
@@ -1428,7 +1421,6 @@ def main(argv: list[str] | None = None) -> int:
         with suppress(OSError):
             flush(sys.stderr)
     return 0
-
 
 if __name__ == "__main__":
     status = main()
