@@ -15,9 +15,9 @@ A WORD is one of these, in any order:
 For example: python airtrack.py 10 d fps_target=30
 
 In a film, * is the car and | is a wall. < or > is the car, too, when it is out of
-the picture. 0 is where a move ended beyond a wall, and . is the start. o is the true
-car. + is the car of the example as it is, if you changed something. a to e are the
-cars of five methods.
+the picture. If the car bounces, 0 is where the frame would have ended without walls.
+A . is the start. o is the true car. If you changed an example, + is the car of the
+unchanged example. a to e are the cars of five methods.
 
 README.md says what this is good for. .github/lesson.md is a lesson for a class.
 """
@@ -135,13 +135,13 @@ MOTIONS = {"forward": forward, "backward": backward, "exact": exact}
 def none(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> State:
     """Reverse the velocity, but leave the car beyond the wall, where it may be caught.
 
-    In example 3 the acceleration is 1.5 m/s^2 into the wall, dt is 1/30 s, and CR is 0.6. Rounded:
-        frame 46   The move ends 5.2 cm deep.   inward_mps changes from  2.30 to -1.38.
-        frame 47   The move ends 0.7 cm deep.   inward_mps changes from -1.33 to  0.80.
-        frame 48   The move ends 3.6 cm deep.   inward_mps changes from  0.85 to -0.51.
+    In example 3 the motion is backward, inward_mps2 is 1.5, dt is 1/30 s, and CR is 0.6. Rounded:
+        frame 46   The move ends 5.17 cm deep.   inward_mps changes from  2.30 to -1.38.
+        frame 47   The move ends 0.73 cm deep.   inward_mps changes from -1.33 to  0.80.
+        frame 48   The move ends 3.56 cm deep.   inward_mps changes from  0.85 to -0.51.
     In frame 47 the car was still beyond the wall, because the bounce had slowed it. So its velocity
-    was reversed again, now into the wall: the car is caught. Such a car is said to stick. The other
-    corrections are there to prevent this.
+    was reversed again, now into the wall. The same happens in frame 49, and so on: the car is
+    caught. Such a car is said to stick. The other corrections are there to prevent this.
     """
     return depth_m, -CR * inward_mps
 
@@ -172,8 +172,8 @@ def conserve(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -
     the dt makes a quarter of it. Like rebound, conserve may throw the car out.
     """
     # Take the car back to the wall. E does not change, so its speed w there follows from
-    # w^2 = v^2 - 2 a depth. This may come out negative, by round-off or if backward has taken too
-    # much energy. The bounce leaves the speed CR w.
+    # w^2 = v^2 - 2 a depth. This may come out negative: by round-off, if backward has taken too
+    # much energy, or if the car started beyond the wall. The bounce leaves the speed CR w.
     w_squared = max(0.0, inward_mps * inward_mps - 2 * inward_mps2 * depth_m)
     bounced_mps = CR * math.sqrt(w_squared)  # 1.93 m/s in the drawn collision
     # Take the car to its new place, CR * depth in front of the wall. E does not change, so its
@@ -209,12 +209,13 @@ def rewind(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> 
     than the track is long, rewind may throw the car out, too.
     """
     # Run the film backwards: the car comes out of the wall. When is it at the wall, and how fast?
-    # arrival() counts towards the wall, so outwards here. Backwards in time the velocity is
-    # outwards: inward_mps. The acceleration still points inwards, so it is -inward_mps2.
+    # In a film that runs backwards a velocity is reversed, and an acceleration is not. So towards
+    # the wall, from inside, the velocity is +inward_mps, and the acceleration is -inward_mps2.
     late_s, met_mps = arrival(depth_m, inward_mps, -inward_mps2)  # 0.030 s, 2.41 m/s
     # Run it forwards again, from the wall, after the bounce, for the same time.
     new_depth_m, new_inward_mps = exact(0.0, -CR * met_mps, inward_mps2, late_s)
-    # If the car is in the wall again, there was a second bounce: put it on the wall.
+    # If the car is in the wall again, there was a second bounce. Put it on the wall, and leave the
+    # second bounce to the next frame.
     return min(new_depth_m, 0.0), new_inward_mps
 
 CORRECTIONS = {"none": none, "surface": surface, "rebound": rebound, "conserve": conserve,
@@ -579,15 +580,15 @@ class Car:
         self.most_off_m = 0.0  # how far it was at most from the true car
         self.energy = scene.energy(self.x_m, self.v_mps)  # in J/kg
         self.first_energy = self.least_energy = self.most_energy = self.energy
-        # Whether a car rests is asked of its last frames: of those of 1/3 s, which is enough to see
-        # it, but of at least ten, because a car in flight may be near a wall for some frames, too.
-        # A deque with a maxlen forgets the oldest of them when a new one comes.
+        # Whether a car rests is asked of its last frames. The frames of 1/3 s are enough to see it.
+        # But ask ten frames at least, because a car in flight may be near a wall for some frames,
+        # too. A deque with a maxlen forgets its oldest item when a new one comes.
         self.rest_frames = max(10, round(scene.fps_target / 3))
         self.last: deque[tuple[float, float]] = deque(maxlen=self.rest_frames)  # t_s and x_m
         self.rest_began_s: float | None = None  # since when it lies still, if it does
 
     def move(self, dt_s: float) -> None:
-        """Make a frame of dt_s. The true car must have made it before, for it is compared with."""
+        """Make a frame of dt_s. The true car must have made it already."""
         self.x_m, self.v_mps, self.mark_m = step(self.scene, self.x_m, self.v_mps, dt_s)
         self.frames += 1
         self.t_s += dt_s
@@ -610,7 +611,8 @@ class Car:
         if not self.is_at_rest():
             self.rest_began_s = None
         elif self.rest_began_s is None:
-            # A car that lies still began to rest now. Others began at the first of the last frames.
+            # A car that lies still has just come to rest. For others it was the first of the last
+            # frames.
             first_s, _ = self.last[0]
             self.rest_began_s = self.t_s if self.lies_still() else first_s
 
@@ -725,14 +727,14 @@ def end_text(car: Car) -> str:
         return f"rests from {car.rest_began_s:.2f} s"
     if car.is_beyond_a_wall():
         return "is beyond a wall"
-    return "moves"
+    return "still moves"
 
 def tell_cars(cars: dict[str, Car]) -> None:
     """Print a table with a row for each car, and a line for its hops and its end."""
     marks = [mark for mark in "*+oabcde" if mark in cars]
     print()
-    print("                      furthest from     energy (J/kg; 0: at rest on its floor)")
-    print("                       its true car      first      least       most       last")
+    print("                      furthest from     energy in J/kg")
+    print("                      its own truth      first      least       most       last")
     for mark in marks:
         car = cars[mark]
         name = method_text(car.scene.motion, car.scene.correction)
@@ -743,7 +745,8 @@ def tell_cars(cars: dict[str, Car]) -> None:
         for energy in (car.first_energy, car.least_energy, car.most_energy, car.energy):
             row += number_text(energy).rjust(11)
         print(row)
-    print("Frames from bounce to bounce, and the end:")
+    print("Energy 0: at rest on the wall to which it is accelerated. Below 0: beyond it.")
+    print("The hops in frames, each from one bounce to the next, and the end:")
     for mark in marks:
         car = cars[mark]
         row = f"{mark} at {car.scene.fps_target:.4g} FPS: "
@@ -760,7 +763,8 @@ def run(cars: dict[str, Car], view: Scene, has_details: bool, max_frames: int,
     car = cars["*"]
     scene = car.scene
     pace = Pace(scene, keys)
-    moving = list(dict.fromkeys([car.truth, *cars.values()]))  # the true car first, each car once
+    # The true car moves first, as the others are compared with it.
+    moving = [car.truth, *[each for each in cars.values() if each is not car.truth]]
     while True:
         # Wait until the next frame is due.
         dt_s, fps = pace.wait(car.frames, car.t_s)
@@ -811,7 +815,7 @@ def simulate(scene: Scene, fps: int, cut: int) -> list[Sample]:
     """
     dt_s = 1 / fps
     truth = truth_of(scene)
-    part = 0.0
+    part = 0.0  # of a frame
     if cut > 0:
         # Nine parts, 1/9 of a frame apart: 1/27, 4/27, 7/27, ... 25/27. None of them is at the edge
         # of a frame, because a run from there would be cut 0 again.
@@ -862,7 +866,7 @@ class Point(NamedTuple):
 
 def measure(scene: Scene) -> dict[str, list[Point]]:
     """Measure every method at every rate, and print the table row by row."""
-    motions = "".join([f"{letter}: {METHODS[letter][0]}".rjust(15) for letter in METHODS])
+    motions = "".join([f"{letter}: {motion}".rjust(15) for letter, (motion, _) in METHODS.items()])
     corrections = "".join([f"+ {correction}".rjust(15) for _, correction in METHODS.values()])
     print()
     print("    " + motions)
@@ -908,10 +912,10 @@ def picture(points: dict[str, list[Point]], pixel_m: float) -> None:
         for point in series:
             row = round(ROWS_A_DECADE * math.log10(point.cost_us))
             place = row, error_column(point.error_m)
-            if letters.get(place, letter) == letter:  # free, or this letter stands there already
-                letters[place] = letter
+            if place in letters and letters[place] != letter:
+                letters[place] = "+"  # another letter stands there already
             else:
-                letters[place] = "+"
+                letters[place] = letter
     rows = [row for row, _ in letters]
     pixel_column = error_column(pixel_m)
     print("one drawn pixel |".rjust(10 + pixel_column + 1))
@@ -1023,8 +1027,8 @@ def stability(scene: Scene, title: str) -> None:
     say(f"Stability. {title}")
     say("Which methods are right, and from which frame rate on? Each runs ten times for 20 "
         "simulated seconds. A small letter: only some of the ten runs are so bad. 100 % of the "
-        "energy is v^2/2 at the start + the acceleration * the length of the track. Examples 19 "
-        "and 20 say why a car gets too much energy (H, G) or too little (L).")
+        "energy is v^2/2 at the start + the acceleration * the length of the track. Example 20 "
+        "says why a car gets too much energy (H, G), and example 19 why it gets too little (L).")
     print()
     print(" " * 20 + "".join([str(fps).rjust(6) for fps in MAP_FPS]) + " FPS")
     for motion in MOTIONS:
@@ -1060,44 +1064,44 @@ def stability(scene: Scene, title: str) -> None:
 #     6:  0     *                   The hop ends 6 cm lower (0), with w = 1.3 m/s downwards.
 # This hop has 6 frames. A true car comes back as fast as it left: w is u. This car comes back
 # faster. The number k of a hop says by how much:
-#         w - u = k g dt                                  here 1.3 - 1.1 = k * 0.4, so k is 1/2
+#         w - u = k * g * dt                  here 1.3 - 1.1 = k * 0.4, so k is 1/2
 # If a car comes back slower than it left, the k of this hop is negative.
 #
-# In truth each hop lasts CR times as long as the hop before. With surface and rebound it does not.
-# For these two corrections the law is
-#         next = CR (hop + k) + k'                        here 7 = 1 (6 + 1/2) + 1/2
+# In truth each hop lasts CR times as long as the hop before. With surface and rebound the law is
+#         next = CR * (hop + k) + k'          here 7 = 1 * (6 + 1/2) + 1/2
 # Here hop and next are the lengths of a hop and of the hop after it, both in frames. The number k
 # belongs to the hop, and k' to the next hop. (The drawn hop is followed by one of 7 frames, which
 # has k' = 1/2, too.) If k and k' are 0, the law is the truth. It is found in three steps.
-# (1) Each frame of a hop adds g dt to the velocity downwards, and takes it from -u to w:
-#         w + u = hop g dt                                here 1.3 + 1.1 = 6 * 0.4
-# (2) Add w - u = k g dt to this, or subtract it. Then divide by 2:
-#         w = (hop + k) g dt/2                            here 1.3 = (6 + 1/2) * 0.2
-#         u = (hop - k) g dt/2                            here 1.1 = (6 - 1/2) * 0.2
-# (3) The next hop begins at the speed (next - k') g dt/2, as (2) holds for it, too. This is what
-#     the bounce has left of w: CR w. So next - k' is CR (hop + k), and this is the law.
+# (1) Each frame adds g * dt to the velocity downwards. All frames of the hop together take it from
+#     -u to w:
+#         w + u = hop * g * dt                here 1.3 + 1.1 = 6 * 0.4
+# (2) Add w - u = k * g * dt to this, or subtract it. Then divide by 2:
+#         w = (hop + k) * g * dt/2            here 1.3 = (6 + 1/2) * 0.2
+#         u = (hop - k) * g * dt/2            here 1.1 = (6 - 1/2) * 0.2
+# (3) By (2) the next hop begins at the speed (next - k') * g * dt/2. This is what the bounce has
+#     left of w: CR * w. So next - k' is CR * (hop + k), and this is the law.
 #
-# Why is w not u? A collision is found late, so a hop ends lower (0) than it begins (*). Call this
-# the drop of the hop. Here it is 6 cm. The mean velocity of the hop, downwards, is (w - u)/2. So
-# with the exact motion
-#         drop = (w - u)/2 * hop dt                       here 6 cm = 0.1 m/s * 0.6 s
-# Forward takes the velocity at the start of each frame. Upwards it is g dt/2 more than the mean
-# velocity of the frame. So each frame puts the car g dt^2/2 higher, and the hop puts it hop g
-# dt^2/2 higher. Call this length the way. Here it would be 12 cm. Backward puts the car as much
-# lower. Let s be 1 for forward, 0 for exact and -1 for backward. Then
-#         drop = (w - u)/2 * hop dt - s * way
-# Put in k g dt for w - u. Then the first term is k * way, so drop = k * way - s * way, and
-#         k = s + drop/way                                here k = 0 + 6/12
-# The drop itself is no fault: a car that falls lower gets faster. The fault comes after it: surface
-# lifts the car back to the floor, and does not slow it.
+# Where does k come from? A collision is found late, so a hop ends lower (0) than it begins (*). How
+# much lower is the drop of the hop. Here it is 6 cm. The mean velocity of the hop, downwards, is
+# (w - u)/2. By (1) and (2), with the exact motion
+#         drop = (w - u)/2 * hop * dt         here 6 cm = 0.1 m/s * 6 * 0.1 s
+#         drop = k * hop * g * dt^2/2         here 6 cm = 1/2 * 12 cm
+# So with exact k is the drop, divided by hop * g * dt^2/2. With exact the motion makes no error:
+# the car has fallen lower, so it is faster. The error is made at the floor. There surface lifts the
+# car by the drop, and does not slow it.
+# Forward makes an error in each frame, too. It moves the car at the velocity that it had at the
+# start of the frame. So each frame ends g * dt^2/2 higher than with exact. With backward it ends as
+# much lower. Let s be 1 for forward, 0 for exact and -1 for backward. Then
+#         drop = (k - s) * hop * g * dt^2/2
 #
 # How large is k? Take exact + surface. The hop begins on the floor. After n frames the car is
-# n dt (u - n g dt/2) above the floor. The hop ends with the first frame after which this is below
-# 0. So for n = hop it is below 0: u is less than hop g dt/2. For n = hop - 1 it is not: u is at
-# least (hop - 1) g dt/2. By (2), u is (hop - k) g dt/2. Therefore k is more than 0 and at most 1.
-# For forward and backward the same steps give 1 to 2 and -1 to 0. With rebound a hop begins above
-# the floor, so its drop may be larger, and k up to 1 larger. (This proof is longer. The tests check
-# it.) In every hop of two frames or more, at any CR, k is between these bounds:
+# n * dt * (u - n * g * dt/2) above the floor. The hop ends with the first frame after which this is
+# below 0. So for n = hop it is below 0: u is less than hop * g * dt/2. For n = hop - 1 it is not: u
+# is at least (hop - 1) * g * dt/2. By (2), u is (hop - k) * g * dt/2. So k is more than 0 and at
+# most 1. With forward, the n in the brackets is n - 1, so k is larger by 1. With backward it is
+# n + 1, so k is smaller by 1. With rebound a hop begins above the floor, so its drop may be larger,
+# and k up to 1 larger. (This proof is longer. The tests check it.) In every hop of two frames or
+# more, at any CR, k is between these bounds:
 #
 #                  surface     rebound
 #     forward      1 to 2      1 to 3
@@ -1109,7 +1113,7 @@ def stability(scene: Scene, title: str) -> None:
 # What does k do?
 #     k > 0   The car gets too much energy. At CR = 1 each hop is longer than the hop before, by
 #             k + k' frames (G in the map). At CR < 1 the hops should die out, but many do not. Put
-#             next = hop and k' = k into the law: a hop of k (1 + CR)/(1 - CR) frames repeats for
+#             next = hop and k' = k into the law: a hop of k * (1 + CR)/(1 - CR) frames repeats for
 #             ever (H), if this is a whole number and at least 2. (A car whose hops have one frame
 #             rests.) With rebound the hops may also end in a cycle, as 7 7 8 9 9 8 at CR = 0.8.
 #     k < 0   The car gets too little energy. At CR = 1 it should hop for ever, but its hops get
@@ -1117,13 +1121,13 @@ def stability(scene: Scene, title: str) -> None:
 #     k = 0   The car gets the right energy.
 #
 # Example 19 is backward + surface at CR = 1. Its k is below 0 in each hop, so the car comes to
-# rest. Example 20 is exact + rebound at CR = 0.8. Its hops get to k = 1, so to 1 * 1.8/0.2 = 9
-# frames, and stay so: the car never comes to rest. With exact + surface at CR = 0.8 k is at most 1,
-# so the hops that repeat have 2 to 9 frames.
+# rest. Example 20 is exact + rebound at CR = 0.8. From its start the hops get to k = 1, so to
+# 1 * 1.8/0.2 = 9 frames, and stay so: the car never comes to rest. With exact + surface at CR = 0.8
+# k is at most 1, so the hops that repeat have 2 to 9 frames.
 #
 # Two cases may surprise. Backward + rebound may give too much energy in one hop and too little in
 # the next, so its car gets higher and lower in turn. And with backward + surface at CR = 1, think
-# of a car that starts from rest. Its speed is always a whole number of g dt. Then k is 0 in each
+# of a car that starts from rest. Its speed is always a whole number of g * dt. Then k is 0 in each
 # hop: the car hops for ever, as it should. But such a hop meets the floor at the very end of a
 # frame. Round-off may find it there, one frame too early, and then k is -1 in this hop.
 
@@ -1204,18 +1208,18 @@ def advice(car: Car) -> str:
     scene = car.scene
     pixel = f"a drawn pixel ({1 / scene.m_to_px:.2g} m)"
     if not car.collisions:
-        return "The * has not met a wall, so this film tells nothing of its correction."
+        return "No collision of the * was found, so this film tells nothing of its correction."
     if car.most_off_m <= 1 / scene.m_to_px:
         return f"The * stayed within {pixel} of its true car. So its method is right for this film."
     text = f"The * was up to {off_text(car)} from its true car, which is over {pixel}."
-    cures = ["conserve", "rewind", "replay"]  # each is right in more frames than the one before
+    cures = ["conserve", "rewind", "replay"]  # each is right more often than the one before
     if not scene.starts_on_track():
         cures = ["conserve"]
     if scene.motion == "exact" and scene.correction in cures:
         cures = cures[cures.index(scene.correction) + 1:]
     if not cures:
         return text
-    change = f"correction={' or '.join(cures)}"
+    change = f"correction={', then '.join(cures)}"
     if scene.motion != "exact":
         change = f"motion=exact and, at the same time, {change}"
     return f"{text} Try {change}."
@@ -1250,7 +1254,7 @@ def check(scene: Scene) -> None:
             raise ValueError(f"{name} must be {allowed_text(name)}, not {value}")
     left_m, right_m = scene.left_edge_m, scene.right_edge_m
     if right_m - left_m < 0.01 - 1e-9:  # round-off: 2.21 - 2.2 is a little less than 0.01
-        raise ValueError(f"right_edge_m must be at least {left_m} + 0.01, not {right_m}")
+        raise ValueError(f"right_edge_m must be at least left_edge_m={left_m} + 0.01, not {right_m}")
     needed_by = f"with correction={scene.correction}"
     if scene.correction in EXACT_ONLY and scene.motion != "exact":
         raise ValueError(f"motion must be exact {needed_by}, not {scene.motion}: choose "
@@ -1261,7 +1265,7 @@ def check(scene: Scene) -> None:
 # ==== 12. The command line ======================================================================
 # What does the user want?
 
-FRAMES = 50_000  # then a film ends that nobody stops
+FRAMES = 50_000  # a film that nobody stops ends then
 COMMANDS = {"chart": chart, "stability": stability}
 # The commands use these settings alone. They choose methods and frame rates themselves.
 OF_THE_TRACK = ["x_m", "v_mps", "a_mps2", "left_edge_m", "right_edge_m", "CR", "m_to_px"]
@@ -1306,7 +1310,7 @@ def unknown(word: str, following: list[str]) -> str:
         return f"unknown word {word}: -h lists all that there are"
     hint = hints[near[0]]
     if hint in SETTINGS:
-        hint += "=VALUE"
+        hint = f"{hint}=VALUE ({SETTINGS[hint].metadata['meaning']})"
     return f"unknown word {word}: did you mean {hint}?"
 
 def epilog() -> str:

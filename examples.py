@@ -254,11 +254,13 @@ EXAMPLES = {
 CHANGED = Example("A changed example", {},
     "The + is the car of the example as it is, in its own frames and between its own walls. So it "
     "may move only in some lines, and may turn where no wall is drawn. The o is the true car of "
-    "the changed scene. What does your change do to the *? Is the * right now?")
+    "the changed scene. Where you see no o, it is under the *. What does your change do to the *? "
+    "Is the * right now?")
 OWN_SCENE = Example(f"Your own scene (the examples are 0 to {max(EXAMPLES)})", {
     "show_exact_mark": True},
-    "The * is your car, and the o is the true car. Does the * stay on the o? Does it come to rest? "
-    "(Without an acceleration a car comes to rest only if CR is 0.)")
+    "The * is your car, and the o is the true car. Where you see no o, it is under the *. Does the "
+    "* stay on the o? Does it come to rest? (Without an acceleration a car comes to rest only if "
+    "CR is 0.)")
 
 
 # ==== The terminal's keys =======================================================================

@@ -20,7 +20,7 @@ metres = near | st.floats(-1e6, 1e6)
 @given(places=st.lists(metres, min_size=8, max_size=8), hit_m=metres | st.none(), start_m=near,
        left_m=st.sampled_from([0.25, -0.5]) | st.floats(-3, 3), track_m=st.floats(0.01, 5),
        width_px=st.integers(10, 200), m_to_px=st.floats(1, 20))
-@settings(max_examples=500)
+@settings(max_examples=300)
 def test_every_column_shows_the_first_of_the_marks_that_belong_there(
         places: list[float], hit_m: float | None, start_m: float, left_m: float, track_m: float,
         width_px: int, m_to_px: float) -> None:
@@ -57,7 +57,7 @@ def test_a_mark_that_is_off_is_not_drawn(setting: str, mark: str) -> None:
 
 
 @pytest.mark.parametrize(("words", "start", "seen"), [
-    ("21", "", "abc"), ("9 show_exact_mark=True", "", "bco"), ("14", "", "e"),
+    ("9 show_exact_mark=True", "", "bco"), ("14", "", "e"),
     ("4 m_to_px=100", "x_m=0.25", "abe")])  # 4: from beyond a wall the letters start on it
 def test_each_letter_stands_where_the_film_of_its_method_has_the_car(
         words: str, start: str, seen: str, capsys: Capture) -> None:
@@ -79,23 +79,3 @@ def test_each_letter_stands_where_the_film_of_its_method_has_the_car(
     (-1.0, "x =  -1.25, v = 12.50, FPS =  60, err = -2.50e-01")])
 def test_the_details(true_m: float | None, text: str) -> None:
     assert details_text(-1.25, 12.5, 59.6, true_m) == text
-
-
-@pytest.mark.parametrize(("walls", "columns"), [
-    ("left_edge_m=-1 right_edge_m=1 x_m=0 m_to_px=20", [0, 20, 40]),
-    ("left_edge_m=-9 right_edge_m=-7 x_m=-8 m_to_px=20", [0, 20, 40]),
-    ("left_edge_m=1 right_edge_m=3 x_m=2 m_to_px=20", [20, 40, 60])])
-def test_a_track_that_begins_left_of_0_is_drawn_from_its_left_wall(
-        walls: str, columns: list[int], capsys: Capture) -> None:
-    line, = film(capsys, "99", *walls.split(), "show_exact_mark=False", "--frames", "1").lines
-    assert [line.find("|"), line.find("*"), line.rfind("|")] == columns
-
-
-def test_details_and_marks_of_the_lesson_s_films(capsys: Capture) -> None:
-    first = film(capsys, "0", "--frames", "1").lines[0]
-    assert [i for i, c in enumerate(first[:126]) if c == "|"] == [4, 122]
-    assert (first.index("*"), first[126:]) == (79, "x =  11.25, v = 16.97, FPS =  67")
-    thirteen, fourteen = film(capsys, "10", "d", "--frames", "14").lines[12:]
-    assert (thirteen.index("*"), thirteen[135:]) == (17, "x =   0.31, v = -2.60, FPS =  10")
-    assert (fourteen.index("0"), fourteen.index("*")) == (2, 25)
-    assert fourteen.endswith("x =   0.45, v =  2.49, FPS =  10")

@@ -80,51 +80,20 @@ def random_hops(motion: str, correction: str, CR: float, cars: int,
     return [measured(random_scene(rng, motion, correction, CR), number) for _ in range(cars)]
 
 
-def any_hops(motion: str, correction: str) -> list[tuple[float, list[Hop]]]:
-    """The first hops of cars at common and at random CR, each beside its CR."""
-    rng = random.Random(f"{motion} {correction}")
-    CRs = [1, 0.9, 0.8, 0.5, *(rng.uniform(0.1, 1) for _ in range(10))]
-    return [(CR, hops) for CR in CRs for hops in random_hops(motion, correction, CR, 30, 12)]
-
-
 @pytest.mark.parametrize(("motion", "correction"), METHODS)
-def test_the_law_holds_in_every_hop_to_round_off(motion: str, correction: str) -> None:
-    for CR, hops in any_hops(motion, correction):
-        for hop, after in pairwise(hops):
-            assert hop.u + hop.w == pytest.approx(hop.frames, abs=1e-9)  # (1)
-            assert hop.w - hop.u == pytest.approx(hop.k, abs=1e-9)  # (2)
-            assert after.u == pytest.approx(CR * hop.w, abs=1e-9)  # (3)
-            assert after.frames == pytest.approx(CR * (hop.frames + hop.k) + after.k, abs=1e-9)
-
-
-@pytest.mark.parametrize(("motion", "correction"), METHODS)
-def test_k_is_between_the_listing_s_bounds_in_every_hop_of_two_frames_or_more_and_gets_near_them(
+def test_in_every_hop_the_law_holds_and_k_is_between_the_listing_s_bounds_and_gets_near_them(
         motion: str, correction: str) -> None:
+    ks = []
+    for CR in (1, 0.91, 0.8, 0.67, 0.5, 0.23):
+        for hops in random_hops(motion, correction, CR, 30, 12):
+            for hop, after in pairwise(hops):
+                assert hop.u + hop.w == pytest.approx(hop.frames, abs=1e-9)  # (1)
+                assert hop.w - hop.u == pytest.approx(hop.k, abs=1e-9)  # (2)
+                assert after.frames == pytest.approx(CR * (hop.frames + hop.k) + after.k, abs=1e-9)
+            ks += [hop.k for hop in hops if hop.frames > 1]
     low, high = BOUNDS[motion, correction]
-    ks = [hop.k for _, hops in any_hops(motion, correction) for hop in hops if hop.frames > 1]
     assert low - 1e-9 < min(ks) < low + 0.1
     assert high - 0.2 < max(ks) < high + 1e-9
-
-
-@pytest.mark.parametrize("motion", S)
-def test_the_two_inequalities_of_the_proof_hold_in_every_hop_with_surface(motion: str) -> None:
-    # Until it is found, after n frames, the car is n dt (u - (n - s) g dt/2) above the floor.
-    s = S[motion]
-    for _, hops in any_hops(motion, "surface"):
-        for hop in hops:
-            if hop.frames > 1:
-                assert (hop.frames - 1 - s) / 2 - 1e-9 < hop.u < (hop.frames - s) / 2 + 1e-9
-                height_m = -hop.drop_m / hop.way_m * hop.frames / 2  # in g dt^2
-                assert height_m == pytest.approx(
-                    hop.frames * (hop.u - (hop.frames - s) / 2), abs=1e-9)
-
-
-@pytest.mark.parametrize("motion", S)
-def test_with_none_at_CR_1_drop_over_way_is_from_minus_1_to_1_and_0_on_average(motion: str) -> None:
-    ratios = [hop.drop_m / hop.way_m for hops in random_hops(motion, "none", 1, 100, 12)
-              for hop in hops if hop.frames > 1]
-    assert -1 < min(ratios) < -0.9 < 0.9 < max(ratios) < 1
-    assert sum(ratios) / len(ratios) == pytest.approx(0, abs=0.1)
 
 
 # What k does.
@@ -151,109 +120,80 @@ def cycle(hops: list[Hop]) -> list[Hop]:
     raise AssertionError(f"no cycle: {frames}")
 
 
-@pytest.mark.parametrize("CR", [0.3, 0.5, 0.7, 0.8, 0.9])
+@pytest.mark.parametrize("CR", [0.3, 0.5, 0.8, 0.9])
 @pytest.mark.parametrize(("motion", "correction"), [
-    method for method in METHODS if method != ("backward", "rebound")])
+    method for method in METHODS if method != ("backward", "rebound")])  # it may find no cycle
 def test_at_CR_below_1_hops_end_in_one_length_or_with_rebound_in_a_cycle_and_k_says_which(
         motion: str, correction: str, CR: float) -> None:
     low, high = [k * (1 + CR) / (1 - CR) for k in BOUNDS[motion, correction]]
-    for hops in random_hops(motion, correction, CR, 40, 600 if CR == 0.9 else 250):
-        last = cycle(hops)
-        frames = [hop.frames for hop in last]
-        assert len(last) == 1 or correction == "rebound"
+    for hops in random_hops(motion, correction, CR, 15, 600 if CR == 0.9 else 250):
+        frames = [hop.frames for hop in cycle(hops)]
+        assert len(frames) == 1 or correction == "rebound"
         assert high >= 2 or frames == [1]  # all hops die out
         assert low < 2 or min(frames) > 1  # none does
-        if min(frames) > 1:
-            assert low - 1e-6 < sum(frames) / len(frames) < high + 1e-6
-        if len(frames) == 1 and min(frames) > 1:
-            hop, = last
-            assert hop.k == pytest.approx(hop.frames * (1 - CR) / (1 + CR), abs=1e-6)
-            assert hop.w == pytest.approx(hop.k / (1 - CR), abs=1e-6)
-
-
-def test_with_backward_and_rebound_at_CR_below_1_some_cars_rest_and_others_hop_on() -> None:
-    longest = {max(hop.frames for hop in hops[-100:])
-               for hops in random_hops("backward", "rebound", 0.8, 40, 250)}
-    assert min(longest) == 1 < max(longest) <= 9
 
 
 # The listing's drawn hop and its worked numbers.
 
-def number_text(number: float) -> str:
-    return f"{number:.10g}"
-
-
 def test_the_drawn_hop_and_the_numbers_of_its_three_steps_are_the_program_s() -> None:
-    motion, correction, *values = re.findall(
-        r"a hop with (\w+) \+ (\w+)\. CR is (.*?), g is (.*?) m/s\^2, dt is (.*?) s, and a column "
-        r"is 1 cm", WORDS)[0]
-    CR, g, dt = map(float, values)
-    u = float(re.findall(r"\(\*\), with u = (.*) m/s upwards", LAW)[0])
-    floor_m = 0.1
-    scene = Scene(motion=motion, correction=correction, CR=CR, a_mps2=-g, x_m=floor_m, v_mps=u,
+    CR, g, dt, u, floor_m = 1, 4, 0.1, 1.1, 0.1
+    scene = Scene(motion="exact", correction="surface", CR=CR, a_mps2=-g, x_m=floor_m, v_mps=u,
                   left_edge_m=floor_m, fps_target=1 / dt, m_to_px=100, width_px=40)
-    x_m, v_mps, mark_m = floor_m, u, None
+    x_m, v_mps, mark_m = floor_m, float(u), None
     drawn = [render_track(scene, {"*": x_m}, mark_m)]
     while mark_m is None:
         x_m, v_mps, mark_m = step(scene, x_m, v_mps, dt)
         drawn.append(render_track(scene, {"*": x_m}, mark_m))
     told = re.findall(r"(?m)^#     (\d):  ([0 ] +[*|].{0,19})", LAW)
-    assert [int(frame) for frame, _ in told] == list(range(len(drawn)))
-    for (_, line), again in zip(told, drawn, strict=True):
-        assert line.rstrip() == again[4:].rstrip()
+    assert [(int(frame), line.rstrip()) for frame, line in told] == [
+        (frame, line[4:].rstrip()) for frame, line in enumerate(drawn)]
 
     hop, after = measured(replace(scene, v_mps=g * dt - u), 2)  # a frame before, with a collision
-    assert hop.frames == len(drawn) - 1
     assert hop.u * g * dt == pytest.approx(u)
-    w, drop_cm, way_cm = hop.w * g * dt, 100 * hop.drop_m, 100 * hop.way_m
-    n, s = number_text, S[motion]
-    passage = WORDS.partition("Here is a hop")[2].partition("How large is k?")[0]
-    for figure, values_told in (
-            (r"(\S+) cm", [1, drop_cm, way_cm, 100 * after.drop_m, 100 * after.way_m]),
-            (r"(\S+) frames", [hop.frames, after.frames]), (r"= (\S+) m/s ", [u, w])):
-        told_once = dict.fromkeys(re.findall(figure, passage))
-        assert list(told_once) == [n(value) for value in values_told]
-    for equation in (
-            f"here {n(u)} + {n(w)} = {hop.frames} * {n(g * dt)} ",
-            f"here ({n(w**2)} - {n(u**2)})/2 = {n(g)} * {n(drop_cm / 100)} + {s} ",
-            f"here k = {s} + {n(drop_cm)}/{n(way_cm)}, and {n(w)} - {n(u)} = k * {n(g * dt)} ",
-            f"here {after.frames} = {n(CR)} ({hop.frames} + 1/2) + 1/2 "):
-        assert equation in passage
-    assert "k' is 1/2" in passage
     assert (hop.k, after.k) == pytest.approx((0.5, 0.5))
+    w, drop, way = (f"{number:.10g}" for number in (
+        hop.w * g * dt, 100 * hop.drop_m, 100 * hop.way_m))
+    g_dt = f"{g * dt:.10g}"
+    for sentence in (
+            f"exact + surface. CR is {CR}, g is {g} m/s^2, dt is {dt} s, and a column is 1 cm.",
+            f"with u = {u} m/s upwards",
+            f"The hop ends {drop} cm lower (0), with w = {w} m/s downwards.",
+            f"This hop has {hop.frames} frames.",
+            f"here {w} - {u} = k * {g_dt}, so k is 1/2 ",
+            f"here {after.frames} = {CR} * ({hop.frames} + 1/2) + 1/2 ",
+            f"is followed by one of {after.frames} frames, which has k' = 1/2, too",
+            f"here {w} + {u} = {hop.frames} * {g_dt} ",
+            f"here {w} = ({hop.frames} + 1/2) * {g * dt / 2:.10g} ",
+            f"here {u} = ({hop.frames} - 1/2) * {g * dt / 2:.10g} ",
+            f"Here it is {drop} cm.",
+            f"here {drop} cm = {(hop.w * g * dt - u) / 2:.10g} m/s * {hop.frames} * {dt} s ",
+            f"here {drop} cm = 1/2 * {way} cm "):
+        assert sentence in WORDS
 
 
-def test_the_law_s_examples_19_and_20_have_the_k_that_is_told() -> None:
+def test_examples_19_and_20_have_the_k_that_is_told() -> None:
     assert "Example 19 is backward + surface at CR = 1. Its k is below 0 in each hop" in WORDS
     nineteen = Scene(**EXAMPLES[19].settings)
     assert (nineteen.motion, nineteen.correction, nineteen.CR) == ("backward", "surface", 1)
     assert all(hop.k < 0 for hop in measured(nineteen, 100) if hop.frames > 1)
     twenty = Scene(**EXAMPLES[20].settings)
-    assert (twenty.motion, twenty.correction) == ("exact", "rebound")
-    CR, k, k_again, above, below, frames = re.findall(
-        r"Example 20 is exact \+ rebound at CR = (.*?)\. .*? k = (.*?), .*? (\S+) \* (\S+)/(\S+) = "
-        r"(\d+) frames", WORDS)[0]
-    assert [float(CR), float(above), float(below)] == pytest.approx([
-        twenty.CR, 1 + twenty.CR, 1 - twenty.CR])
-    last = cycle(measured(twenty, 150))
-    assert [(hop.frames, round(hop.k, 6)) for hop in last] == [(int(frames), float(k))]
-    assert k == k_again
+    hop, = cycle(measured(twenty, 150))
+    assert hop.k == pytest.approx(1, abs=1e-6)
+    method = f"{twenty.motion} + {twenty.correction}"
+    length = f"1 * {1 + twenty.CR}/{1 - twenty.CR:.10g} = {hop.frames} frames"
+    assert (f"Example 20 is {method} at CR = {twenty.CR}. "
+            f"From its start the hops get to k = 1, so to {length}") in WORDS
 
 
 def test_the_lengths_and_the_cycle_that_are_told_occur() -> None:
-    CR, k, least, most = re.findall(
-        r"exact \+ surface at CR = (\S+) k is at most (\d), .*? (\d) to (\d) frames", WORDS)[0]
-    assert int(k) == BOUNDS["exact", "surface"][1]
-    assert int(most) == round(int(k) * (1 + float(CR)) / (1 - float(CR)), 9)
-    assert int(least) == 2
-    told, = re.findall(r"in a cycle, as ([\d ]+)\.", WORDS)
+    assert "With exact + surface at CR = 0.8 k is at most 1, so the hops that repeat" in WORDS
+    assert f"have 2 to {BOUNDS['exact', 'surface'][1] * 1.8 / 0.2:.0f} frames" in WORDS
+    told, = re.findall(r"in a cycle, as ([\d ]+) at CR = 0.8\.", WORDS)
     cycles = [" ".join(str(hop.frames) for hop in cycle(hops) * 2)
               for hops in random_hops("exact", "rebound", 0.8, 40, 250)]
     assert any(told in each for each in cycles)
 
 
 def test_a_ball_dropped_from_rest_may_repeat_one_hop_with_backward_and_surface_at_CR_1() -> None:
-    scene = Scene(**EXAMPLES[22].settings | {"CR": 1, "motion": "backward"})
-    hops = measured(scene, 200)[2:]
-    assert {hop.frames for hop in hops} == {54}
+    hops = measured(Scene(**EXAMPLES[22].settings | {"CR": 1, "motion": "backward"}), 50)[2:]
     assert all(hop.k == pytest.approx(0, abs=1e-9) for hop in hops)

@@ -229,33 +229,45 @@ def test_a_moving_paddle_leaves_the_ball_where_it_truly_is(
     assert (values["x"], values["vx"]) == pytest.approx((true_x, true_v), abs=1e-9)
 
 
-def test_a_thin_wall_stops_every_bullet_and_carries_a_ball() -> None:
-    snippet, rng = listing("old <= face < x"), random.Random(2)
-    code = compile(snippet, "a snippet", "exec")
+def test_a_thin_platform_or_wall_stops_every_bullet_and_carries_a_ball() -> None:
+    snippet, rng = listing("old <= face < y"), random.Random(2)
+    wall = re.sub(r"\bg\b", "0", re.sub(r"\by\b", "x", snippet)).replace("Y", "X")
+    platform, side = compile(snippet, "a snippet", "exec"), compile(wall, "a snippet", "exec")
+    for name, place, code in (("y", "Y", platform), ("x", "X", side)):
+        for _ in range(200):
+            values = room(v=rng.uniform(5, 500), r=rng.uniform(0.01, 0.3),
+                          **{name: 0.0, place: rng.uniform(1, 3)})
+            for _ in range(60):
+                exec(code, values)
+                assert values[name] <= values["face"]
+            assert name == "y" or values["v"] < 0
     for _ in range(200):
-        values = room(X=rng.uniform(1, 3), v=rng.uniform(5, 500), x=0.0, r=rng.uniform(0.01, 0.3))
-        for _ in range(60):
-            exec(code, values)
-            assert values["x"] <= values["face"]
-        assert values["v"] < 0
-    fall = snippet.replace("x + v*dt", "x + v*dt + g*dt*dt/2; v += g*dt")
-    platform = compile(fall.replace(", 0, CR", ", g, CR"), "a snippet", "exec")
-    for _ in range(200):
-        values = room(X=rng.uniform(1, 3), x=0.0, r=rng.uniform(0.01, 0.3), CR=rng.uniform(0, 0.9))
+        values = room(y=0.0, Y=rng.uniform(1, 3), r=rng.uniform(0.01, 0.3), CR=rng.uniform(0, 0.9))
         for _ in range(1500):
             exec(platform, values)
-            assert values["x"] <= values["face"]
-        assert values["x"] == values["face"]
+            assert values["y"] <= values["face"]
+        assert values["y"] == values["face"]
+
+
+def test_a_ball_that_is_put_on_the_wall_does_not_stick() -> None:
+    code, = re.findall(r"`(if x - r < left: x, vx .*?)`", README)
+    for CR in (0.1, 0.5, 0.9):
+        for number in range(20):
+            values = room(x=0.5, vx=-1.0 - number / 7, left=0.0, CR=CR)
+            speed = values["vx"]
+            for _ in range(60):
+                exec("x += vx*dt\n" + code, values)
+            assert values["vx"] == pytest.approx(-CR * speed)
 
 
 def test_a_fixed_step_gives_the_same_number_of_steps_at_any_frame_rate() -> None:
     code = compile(listing("waiting += "), "a snippet", "exec")
     for fps in (24, 60, 144):
-        names: dict[str, Any] = {"waiting": 0.0, "dt": 1 / 100, "step": Mock()}
+        names: dict[str, Any] = {"waiting": 0.0, "dt": 1 / 100, "step": Mock(), "y": 0.0}
         for _ in range(10 * fps):
             exec(code, names | {"frame_time": 1 / fps}, names)
         assert names["step"].call_count == pytest.approx(1000, abs=1)
-    names = {"waiting": 0.0, "dt": 1 / 100, "step": Mock()}
+    names = {"waiting": 0.0, "dt": 1 / 100, "step": Mock(), "y": 0.0}
     exec(code, names | {"frame_time": 60.0}, names)
     assert names["step"].call_count in (24, 25)  # the cap
 
@@ -306,19 +318,31 @@ def test_at_CR_1_the_good_order_gets_lower_but_some_balls_repeat_their_hop() -> 
     assert falls[0] > falls[-1] + 0.3
     last = game("gpc", 200, 1.0, y=0.97, v=0.3)[-100:]
     assert max(y for y, _ in last) < 1e-9
-    for g, up, frames in ((Fraction(10), 0, 30), (Fraction(10), 5, 60)):  # in rational numbers
-        dt, y, v = Fraction(1, 60), Fraction(1), Fraction(up)
-        hops_found, since = [], 0
-        for _ in range(40 * frames):
-            v -= g * dt
+    for part in range(1, 121):  # in rational numbers: a ball leaves the floor at part/12 of g dt
+        dt, y, v = Fraction(1, 60), Fraction(0), Fraction(5) + Fraction(part, 12) * 10 / 60
+        found, since = [], 0
+        for _ in range(600):
+            v -= 10 * dt
             y += v * dt
             since += 1
             if y < 0:
                 y, v = Fraction(0), -v
-                hops_found.append(since)
+                found.append(since)
                 since = 0
-        assert len(set(hops_found[1:])) == 1  # it repeats for ever
-        assert v % (g * dt) == 0
+        repeats = part % 6 == 0  # twice the speed is a whole multiple of g dt
+        assert (len(set(found)) == 1) is repeats
+        assert found == sorted(found, reverse=True)
+
+
+def test_a_ball_that_lies_still_has_the_velocity_that_is_told() -> None:
+    says("README", "a ball that lies still has v = -CR g dt/(1 + CR) after each contact")
+    gravity, position, contact = listing("# gravity").splitlines()
+    for CR in (0.3, 0.5, 0.8, 0.9):
+        values = room(y=-1.0, r=0.0, floor=0.0, CR=CR)
+        lines = compile("\n".join([gravity, position, contact]), "a snippet", "exec")
+        for _ in range(60 * 60):
+            exec(lines, values)
+        assert values["v"] == pytest.approx(-CR * 10 / 60 / (1 + CR))
 
 
 @pytest.mark.parametrize("CR", [0.5, 0.8, 0.9])

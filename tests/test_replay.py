@@ -2,7 +2,6 @@
 
 import math
 import random
-import re
 from decimal import Decimal
 from typing import Any
 from unittest.mock import Mock
@@ -47,18 +46,12 @@ def largest_error_m(scene: Scene, frame_s: float, frames: int) -> float:
 
 
 @pytest.mark.parametrize("seed", range(5))
-def test_agrees_with_60_digits_in_random_scenes_at_random_frame_rates(seed: int) -> None:
+def test_short_frames_and_one_of_20_s_agree_with_60_digits_in_random_scenes(seed: int) -> None:
     rng = random.Random(seed)
-    for _ in range(300):
+    for _ in range(200):
         scene = random_scene(rng)
-        frames = max(2, min(200, round(3 * scene.fps_target)))
+        frames = max(2, min(100, round(3 * scene.fps_target)))
         assert largest_error_m(scene, 1 / scene.fps_target, frames) < 1e-9, scene
-
-
-def test_one_step_of_20_s_is_the_truth_after_20_s() -> None:
-    rng = random.Random("long frames")
-    for _ in range(300):
-        scene = random_scene(rng)
         assert largest_error_m(scene, 20.0, 1) < 1e-9, scene
 
 
@@ -83,7 +76,7 @@ def any_scene(draw: st.DrawFn) -> Scene:
 
 
 @given(any_scene())
-@settings(max_examples=500)
+@settings(max_examples=300)
 def test_any_scene_stays_on_the_track_and_gains_no_energy_nor_loses_any_at_CR_1(
         scene: Scene) -> None:
     a_mps2, dt_s = scene.a_mps2, 1 / scene.fps_target
@@ -111,20 +104,16 @@ def test_any_scene_stays_on_the_track_and_gains_no_energy_nor_loses_any_at_CR_1(
 @pytest.mark.parametrize(("changes", "x_m", "v_mps", "dt_s", "found"), [
     # 40 m/s on a 2 m track for 0.1 s: 4 m, over and back again, to the same place and velocity
     ({"left_edge_m": 0, "right_edge_m": 2, "CR": 1}, 1.5, 40.0, 0.1, (1.5, 40.0, 5.5)),
-    ({"a_mps2": -2}, 1.0, -1.0, 0.1, (0.89, -1.2, None)),
+    # it bounced and is back, and its move alone ended on the track, too
+    ({"left_edge_m": 0, "right_edge_m": 10, "a_mps2": 2, "CR": 1}, 2.0, -3.0, 3.0, (6.0, 5.0, 2.0)),
     # a turn in mid-track is no collision, and a tiny acceleration no leap
     ({"right_edge_m": 5, "a_mps2": 2}, 2.0, -1.0, 1.0, (2.0, 1.0, None)),
     ({"a_mps2": -1e-300}, 1.0, 0.0, 0.1, (1.0, 0.0, None)),
-    # it bounced and is back, and its move alone ended on the track, too
-    ({"left_edge_m": 0, "right_edge_m": 10, "a_mps2": 2, "CR": 1}, 2.0, -3.0, 3.0, (6.0, 5.0, 2.0)),
     # CR = 0 ends a bounce on the wall
-    ({"a_mps2": -1, "CR": 0}, 0.5, -1.0, 1.0, (0.25, 0.0, -1.0)),
     ({"CR": 0}, 0.5, -1.0, 1.0, (0.25, 0.0, -0.5)),
-    ({"CR": 0}, 2.0, 1.0, 1.0, (2.2, 0.0, 3.0)),
     # the frame's end is the Zeno point
     ({"a_mps2": -2, "CR": 0.5}, 0.25, 1.0, 2.0, (0.25, 0.0, -1.75)),
     # a car that is accelerated into its wall stays there, and one that is accelerated off it leaves
-    ({"a_mps2": -3}, 0.25, 0.0, 0.001, (0.25, 0.0, 0.25 - 1.5e-6)),
     ({"a_mps2": -3}, 0.25, 0.0, 20.0, (0.25, 0.0, -599.75)),
     ({"a_mps2": 2}, 0.25, 0.0, 0.5, (0.5, 1.0, None))])
 def test_frames_worked_out_by_hand(
@@ -136,20 +125,7 @@ def test_frames_worked_out_by_hand(
 
 
 @pytest.mark.parametrize("side", [-1, 1])
-@pytest.mark.parametrize("CR", [1.0, 0.5])
-@pytest.mark.parametrize(("rise_m", "rests"), [(4.9e-11, True), (5.1e-11, False), (1e-300, True)])
-def test_a_car_rests_as_soon_as_it_would_rise_less_than_5e_11_m(
-        rise_m: float, rests: bool, CR: float, side: int) -> None:
-    walls = {"left_edge_m": min(0, -side), "right_edge_m": max(0, -side)}  # the floor is at 0
-    scene = exact(x_m=0, a_mps2=2 * side, CR=CR, **walls)
-    w_mps = math.sqrt(4 * rise_m) / CR  # it comes down at w, and CR w rises by rise_m
-    x_m, v_mps, _ = step(scene, 0.0, side * w_mps, 1e-6)
-    assert (x_m == v_mps == 0) is rests
-
-
-@pytest.mark.parametrize("side", [-1, 1])
-@pytest.mark.parametrize(("beyond_m", "misses"), [
-    (-1e-9, True), (4.9e-11, True), (5.1e-11, False), (1e-9, False)])
+@pytest.mark.parametrize(("beyond_m", "misses"), [(4.9e-11, True), (5.1e-11, False)])
 def test_a_turn_less_than_5e_11_m_beyond_the_ceiling_is_a_miss(
         beyond_m: float, misses: bool, side: int) -> None:
     walls = {"left_edge_m": min(0, -side), "right_edge_m": max(0, -side)}
@@ -158,32 +134,20 @@ def test_a_turn_less_than_5e_11_m_beyond_the_ceiling_is_a_miss(
     assert (mark_m is None) is misses
 
 
-@pytest.fixture
-def turns(monkeypatch: pytest.MonkeyPatch) -> Mock:
-    """Counts the turns of replay's loop: in each, one flight."""
-    spy = Mock(side_effect=airtrack.arrival)
-    monkeypatch.setattr(airtrack, "arrival", spy)
-    return spy
-
-
-@pytest.mark.parametrize(("CR", "most"), [(0.3, 40), (0.8, 120), (0.95, 500), (1.0, 10)])
-def test_infinitely_many_hops_take_a_few_hundred_turns_of_the_loop_and_whole_hops_at_CR_1_none(
-        CR: float, most: int, turns: Mock) -> None:
-    for v_mps in (1e-9, 1e-6, 1e-3, 1.0):  # at 1 nm/s 20 s hold two thousand million hops
-        turns.reset_mock()
-        step(exact(x_m=0.25, v_mps=v_mps, a_mps2=-2, CR=CR), 0.25, v_mps, 20.0)
-        assert 0 < turns.call_count <= most
-
-
-def test_the_bounces_until_rest_that_the_listing_tells_are_counted(turns: Mock) -> None:
-    listing = " ".join((HERE / "airtrack.py").read_text(encoding="utf-8").replace("#", "").split())
-    told, = re.findall(r"After a drop from (.*?)\. ", listing)
-    from_m, *bounces = re.findall(r"[0-9.]+", told)
-    for number, CR in (bounces[:2], bounces[2:]):
-        turns.reset_mock()
-        scene = exact(x_m=float(from_m), left_edge_m=0, a_mps2=-9.8, CR=float(CR))
-        assert step(scene, scene.x_m, 0.0, 1000.0)[1] == 0
-        assert turns.call_count == int(number)
+def test_hops_until_rest_are_as_many_as_the_listing_tells_and_at_CR_1_none_is_followed(
+        monkeypatch: pytest.MonkeyPatch) -> None:
+    flights = Mock(side_effect=airtrack.arrival)
+    monkeypatch.setattr(airtrack, "arrival", flights)
+    told = []
+    for CR in (0.8, 0.98):
+        flights.reset_mock()
+        assert step(exact(left_edge_m=0, a_mps2=-9.8, CR=CR), 2.0, 0.0, 1000.0)[:2] == (0, 0)
+        told.append(f"at bounce {flights.call_count} if CR is {CR}")
+    listing = (HERE / "airtrack.py").read_text(encoding="utf-8").replace("#", "")
+    assert f"After a drop from 2 m this is {', and '.join(told)}." in " ".join(listing.split())
+    flights.reset_mock()
+    step(exact(x_m=0.25, a_mps2=-2, CR=1), 0.25, 1e-3, 20.0)  # 20 000 hops
+    assert flights.call_count <= 10
 
 
 @pytest.mark.parametrize(("x_m", "begins_m"), [(0.2, 0.25), (3, 2.2), (1.5, 1.5)])
