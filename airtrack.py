@@ -1254,7 +1254,7 @@ def check(scene: Scene) -> None:
             raise ValueError(f"{name} must be {allowed_text(name)}, not {value}")
     left_m, right_m = scene.left_edge_m, scene.right_edge_m
     if right_m - left_m < 0.01 - 1e-9:  # round-off: 2.21 - 2.2 is a little less than 0.01
-        raise ValueError(f"right_edge_m must be at least left_edge_m={left_m} + 0.01, not {right_m}")
+        raise ValueError(f"right_edge_m must be {left_m} + 0.01 or more, not {right_m}")
     needed_by = f"with correction={scene.correction}"
     if scene.correction in EXACT_ONLY and scene.motion != "exact":
         raise ValueError(f"motion must be exact {needed_by}, not {scene.motion}: choose "

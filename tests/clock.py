@@ -74,4 +74,4 @@ def ending(out: str) -> str:
 
 def last_words(out: str) -> str:
     """What stands behind the table, without its line breaks."""
-    return plain(out.partition("\nFrames from bounce to bounce")[2].partition("\n\n")[2])
+    return plain(out.partition("\nThe hops in frames")[2].partition("\n\n")[2])

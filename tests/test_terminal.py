@@ -58,7 +58,7 @@ def test_a_key_or_a_signal_ends_the_run_and_leaves_the_terminal_as_it_was_found(
         key: str, status: int, film: Terminal) -> None:
     film.press(key)
     if status == 0:
-        film.until("Stopped after ", "was pressed.\r\n", "Frames from bounce to bounce")
+        film.until("Stopped after ", "was pressed.\r\n", "The hops in frames")
     film.ends(status)
     following = f"Next: {Path(sys.executable).name} airtrack.py 1\r\n"
     assert (following in film.all) is (status == 0)
