@@ -60,7 +60,7 @@ from contextlib import nullcontext, suppress
 from dataclasses import dataclass, field, fields, replace
 from itertools import pairwise
 from statistics import fmean
-from typing import Any, NamedTuple, TextIO, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 from examples import CHANGED, EXAMPLES, OWN_SCENE, Example, Keys, NoKeys, taken_keys
 
@@ -1273,7 +1273,8 @@ OF_THE_TRACK = ["x_m", "v_mps", "a_mps2", "left_edge_m", "right_edge_m", "CR", "
 # What people type because other programs have it, and what it is called here:
 OTHER_NAMES = {"fps": "fps_target", "dt": "fps_target", "g": "a_mps2", "gravity": "a_mps2",
                "a": "a_mps2", "x": "x_m", "h": "x_m", "height": "x_m", "v": "v_mps",
-               "speed": "v_mps", "zoom": "m_to_px", "e": "CR"}
+               "speed": "v_mps", "zoom": "m_to_px", "e": "CR", "map": "stability",
+               "fast": "--fast", "frames": "--frames"}
 
 def converted(name: str, text: str) -> Any:
     """The value that a text stands for or, if the setting has no such value, the text itself."""
@@ -1304,6 +1305,8 @@ def unknown(word: str, following: list[str]) -> str:
         value = values[0] if values else "VALUE"
         return f"unknown word {word}: write {name}={value}, without spaces"
     hints = OTHER_NAMES | {each.lower(): each for each in [*SETTINGS, *COMMANDS]}
+    hints |= {each: f"motion={each}" for each in MOTIONS}
+    hints |= {each: f"correction={each}" for each in ALL_CORRECTIONS}
     cutoff = 1.0 if len(name) == 1 else 0.6  # a single letter must be in the table itself
     near = difflib.get_close_matches(name.lower(), hints, n=1, cutoff=cutoff)
     if not near:
@@ -1382,8 +1385,9 @@ def scene_wanted(wanted: Wanted) -> Scene:
     settings = {name: value for name, value in settings.items() if name in OF_THE_TRACK}
     return truth_of(scene_of(settings))  # on the track, wherever the car starts
 
-def obey(parser: argparse.ArgumentParser, argv: list[str]) -> None:
+def obey(argv: list[str]) -> None:
     """Do what the command line asks for. Wrong input ends the program here, with status 2."""
+    parser = make_parser()
     try:
         wanted = read_command_line(parser, argv)
         scene = scene_wanted(wanted)
@@ -1394,42 +1398,37 @@ def obey(parser: argparse.ArgumentParser, argv: list[str]) -> None:
     else:
         film(scene, wanted)
 
-def flush(stream: TextIO | None) -> None:
-    """Print what still waits. If that fails, drop it: Python would try again at its end."""
-    if stream is None:
-        return  # it was closed before the program began
+def status_of(argv: list[str]) -> int:
+    """Obey the command line. Returns the exit status."""
     try:
-        stream.flush()
-    except OSError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
-        raise
-
-def main(argv: list[str] | None = None) -> int:
-    """Obey argv, else the command line. Returns the exit status. (argparse raises SystemExit.)"""
-    if argv is None:
-        argv = sys.argv[1:]
-    argv = [word.replace("\N{MINUS SIGN}", "-") for word in argv]  # as pages print it
-    parser = make_parser()
-    try:
-        try:
-            obey(parser, argv)
-        finally:
-            flush(sys.stdout)
+        obey(argv)
     except KeyboardInterrupt:
         return 130
+    except SystemExit as end:  # after -h, wrong input or a signal
+        return int(end.code or 0)
+    return 0
+
+def main(argv: list[str] | None = None) -> int:
+    """Obey argv or, without it, the command line. Returns the exit status."""
+    if argv is None:
+        argv = sys.argv[1:]
+    try:
+        status = status_of([word.replace("\u2212", "-") for word in argv])  # pages print this minus
+        sys.stdout.flush()
     except BrokenPipeError:
         return 0  # nobody reads any more, as after | head
     except OSError as fault:  # the disk is full, say
-        parser.exit(2, f"airtrack.py: error: {fault}\n")
-    finally:
-        with suppress(OSError):
-            flush(sys.stderr)
-    return 0
+        with suppress(OSError):  # nor may this be possible
+            print(f"airtrack.py: error: {fault}", file=sys.stderr)
+        return 2
+    return status
 
 if __name__ == "__main__":
+    if sys.stdout is None:  # it was closed before the program began
+        sys.stdout = open(os.devnull, "w")
     status = main()
     if status == 130 and os.name == "posix":
         # Die by Ctrl-C's signal itself. Then a loop of the shell ends, too.
         signal.signal(signal.SIGINT, signal.SIG_DFL)
         os.kill(os.getpid(), signal.SIGINT)
-    sys.exit(status)
+    os._exit(status)  # sys.exit would try again to print what could not be printed

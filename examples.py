@@ -567,7 +567,7 @@ def print_for_now(text: str) -> None:
 
 # ==== Taking and giving back ====================================================================
 
-KILLING_SIGNALS = ["SIGTERM", "SIGHUP", "SIGQUIT"]
+KILLING_SIGNALS = ["SIGTERM", "SIGHUP", "SIGQUIT", "SIGALRM", "SIGUSR1", "SIGUSR2", "SIGXCPU"]
 ENDING_SIGNALS = ["SIGINT", *KILLING_SIGNALS]
 
 # The signals that were ignored when the program began stay ignored: nohup relies on this.
