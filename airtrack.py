@@ -36,15 +36,16 @@ README.md says what this is good for. .github/lesson.md is a lesson for a class.
 #     a  backward + rebound  1      up and down  scenery, where heights and times do not matter
 #     b  exact + rebound     1      too much     nothing: a car that should come to rest hops on
 #     c  exact + conserve    2      right        most things
-#     d  exact + rewind      none   right        short frames, if each bounce must be at its moment
+#     d  exact + rewind      none   right        short frames, if the moments of the bounces matter
 #     e  exact + replay      none   right        the truth, in frames of any length
 #
 # Order 1 means that frames of half the length make half the error, and order 2 that they make a
 # quarter. Methods d and e have no order: where they are right, their only error is round-off. The
-# energy is that of a car which bounces on the wall to which it is accelerated, as a ball bounces on
+# energy is told for a car that bounces on the wall to which it is accelerated, as a ball bounces on
 # a floor. Methods b to e need a constant acceleration. Methods a to d need short frames. In a frame
 # that is longer than the time between two bounces, they may miss a bounce or settle only one of
-# two, and they may throw the car out at the other end of the track.
+# two, and they may throw the car out at the other end of the track. Replay is different: it works
+# out the whole frame, from bounce to bounce.
 
 import argparse
 import difflib
@@ -157,9 +158,9 @@ def surface(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) ->
 def rebound(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> State:
     """Put the car in front of the wall, CR * depth away.
 
-    Without an acceleration this is right: in the time in which the move went beyond the wall by the
-    depth, the true car went back by CR times as much. If the acceleration points into the wall,
-    rebound adds energy, as surface does. If CR * depth is longer than the track, the car is thrown
+    Without an acceleration this is right: while the move went on into the wall by the depth, the
+    true car went back, CR times as fast. If the acceleration points into the wall, rebound adds
+    energy, as surface does. If CR * depth is longer than the track, the car is thrown
     out at the other end (example 14).
     """
     return -CR * depth_m, -CR * inward_mps
@@ -177,11 +178,11 @@ def conserve(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -
     w_squared = max(0.0, inward_mps * inward_mps - 2 * inward_mps2 * depth_m)
     bounced_mps = CR * math.sqrt(w_squared)  # 1.93 m/s in the drawn collision
     # Take the car to its new place, CR * depth in front of the wall. E does not change, so its
-    # speed u there follows from u^2 = (CR w)^2 - 2 a CR depth.
-    u_squared = bounced_mps * bounced_mps - 2 * inward_mps2 * CR * depth_m
-    if u_squared < 0:
+    # speed s there follows from s^2 = (CR w)^2 - 2 a CR depth.
+    s_squared = bounced_mps * bounced_mps - 2 * inward_mps2 * CR * depth_m
+    if s_squared < 0:
         return 0.0, -bounced_mps
-    return -CR * depth_m, -math.sqrt(u_squared)
+    return -CR * depth_m, -math.sqrt(s_squared)
 
 def arrival(d_m: float, u_mps: float, a_mps2: float) -> tuple[float, float]:
     """When will a car be at a wall d_m ahead of it, and how fast? Returns t_s and w_mps.
@@ -221,17 +222,20 @@ def rewind(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> 
 CORRECTIONS = {"none": none, "surface": surface, "rebound": rebound, "conserve": conserve,
                "rewind": rewind}
 
-# The sixth correction, replay, is in section 4. It is asked for a whole frame.
+# The sixth correction, replay, is in section 4. It settles a whole frame.
 ALL_CORRECTIONS = [*CORRECTIONS, "replay"]
 EXACT_ONLY = ["rewind", "replay"]  # they need the exact motion
 
 # ==== 3. The scene and a frame ==================================================================
 # What does a run start from, and how does the car get from one frame to the next?
 
-Value = TypeVar("Value")  # only for the type checker: a setting is of the type of its default
+Value = TypeVar("Value")
 
 def setting(default: Value, meaning: str, **allowed: Any) -> Value:
     """A setting of a scene: its default, its meaning and what is allowed.
+
+    It returns a field, of which @dataclass makes the attribute of a Scene. For the type checker it
+    returns the default, as dataclasses.field() does, because the attribute will be of that type.
 
     A field of a dataclass may carry metadata: a dictionary that dataclasses keep and do not use.
     The checks (section 11) and -h find there what is allowed, so it is said only once.
@@ -280,7 +284,7 @@ class Scene:
         return self.left_edge_m <= self.x_m <= self.right_edge_m
 
     def floor_m(self) -> float:
-        """The wall to which the car is accelerated. If a_mps2 is 0, it is the left wall."""
+        """The wall to which the car is accelerated. (If a_mps2 is 0, either would do.)"""
         return self.right_edge_m if self.a_mps2 > 0 else self.left_edge_m
 
     def energy(self, x_m: float, v_mps: float) -> float:
@@ -339,9 +343,9 @@ def next_bounce(h_m: float, rise_mps: float, g_mps2: float,
 
     h_m is the height of the ball, and rise_mps is its velocity, upwards.
     """
-    # To get to the ceiling takes the energy g * height. A ball may touch the ceiling at almost no
-    # speed, and then round-off would decide whether it does. So a ball that would turn less than
-    # GRAZE_M beyond the ceiling does not meet it.
+    # To rise to the ceiling takes the energy g * (room - h). A ball may touch the ceiling at almost
+    # no speed, and then round-off would decide whether it does. So a ball that would turn back less
+    # than GRAZE_M beyond the ceiling does not meet it.
     energy_to_ceiling = g_mps2 * (room_m - h_m + GRAZE_M)
     if rise_mps > 0 and rise_mps * rise_mps / 2 >= energy_to_ceiling:
         flight_s, speed_mps = arrival(room_m - h_m, rise_mps, -g_mps2)
@@ -469,7 +473,8 @@ def fitted(scene: Scene, has_details: bool) -> Scene:
     columns = shutil.get_terminal_size().columns
     if has_details:
         true_m = 0.0 if scene.show_exact_mark else None
-        columns -= len(details_text(-1000, -1000, scene.fps_target, true_m))  # nearly all fit in
+        longest = details_text(-1000, -1000, scene.fps_target, true_m)  # but for a car far out
+        columns -= len(longest)
     columns = max(columns, 10)  # the least that a scene may have
     if columns >= scene.width_px or not sys.stdout.isatty():
         return scene
@@ -486,7 +491,7 @@ def start_text(scene: Scene) -> str:
             f"{scene.right_edge_m:.10g} m")
 
 def scene_text(scene: Scene) -> str:
-    """The whole scene but for its drawing: cars whose scenes have the same text move alike."""
+    """The scene without its drawing. Cars whose scenes have the same text move alike."""
     method = method_text(scene.motion, scene.correction)
     text = f"{start_text(scene)}; {method}, {scene.fps_target:.10g} FPS"
     if scene.jitter > 0:
@@ -532,7 +537,7 @@ class Pace:
     def __init__(self, scene: Scene, keys: Keys | NoKeys) -> None:
         self.scene = scene
         self.keys = keys
-        # As if a frame 0 had just been shown for its whole length, so that frame 1 is due now.
+        # Begin as if the time of frame 1 had just passed. So frame 1 is due now.
         self.shown_s = time.perf_counter() - planned_length(scene, 1)  # when the last frame came
         self.due_s = self.shown_s  # when it was due
 
@@ -563,7 +568,7 @@ class Pace:
             return lasted_s, fps
         return planned_dt(self.scene, frames + 1), fps
 
-REST_M = 0.001  # 1 mm: less than a column, even in example 22
+REST_M = 0.001  # 1 mm: less than a column in every example
 
 class Car:
     """A car of the film: where it is, where it truly should be, and what has happened to it."""
@@ -599,25 +604,20 @@ class Car:
         """Keep what is told after the film."""
         if self.mark_m is not None:
             self.collisions.append(self.frames)
-        off_m = abs(self.x_m - self.truth.x_m)
-        if off_m > self.most_off_m:
-            self.most_off_m = off_m
+        self.most_off_m = max(self.most_off_m, abs(self.x_m - self.truth.x_m))
         self.energy = self.scene.energy(self.x_m, self.v_mps)
-        if self.energy < self.least_energy:
-            self.least_energy = self.energy
-        if self.energy > self.most_energy:
-            self.most_energy = self.energy
+        self.least_energy = min(self.least_energy, self.energy)
+        self.most_energy = max(self.most_energy, self.energy)
         self.last.append((self.t_s, self.x_m))
         if not self.is_at_rest():
             self.rest_began_s = None
+        elif self.rest_began_s is None and self.lies_still():
+            self.rest_began_s = self.t_s  # it has come to rest in this frame
         elif self.rest_began_s is None:
-            # A car that lies still has just come to rest. For others it was the first of the last
-            # frames.
-            first_s, _ = self.last[0]
-            self.rest_began_s = self.t_s if self.lies_still() else first_s
+            self.rest_began_s, _ = self.last[0]  # it has rested through all of the last frames
 
     def lies_still(self) -> bool:
-        """Whether it lies exactly on its floor, with v = 0. A true car that rests does."""
+        """Whether it lies exactly on the wall to which it is accelerated, with v = 0."""
         has_floor = self.scene.a_mps2 != 0
         return has_floor and self.v_mps == 0 and self.x_m == self.scene.floor_m()
 
@@ -638,7 +638,7 @@ class Car:
         if scene.correction == "replay":
             return False  # a true car that does not lie still hops, however low
         # Other methods may never leave the car quite still. So it is enough that its mean distance
-        # from the floor is small, and that it is no faster than it could become in these frames.
+        # from the floor is small, and that it is no faster than a gives it in these frames.
         floor_m = scene.floor_m()
         if abs(self.x_m - floor_m) > REST_M * self.rest_frames:
             return False  # this distance alone makes the mean too large
@@ -655,7 +655,7 @@ class Car:
 class UnchangedCar(Car):
     """The + of a changed example: the car of the example as it is, in frames of its own.
 
-    Nobody else moves its true car, so it does.
+    The film does not know its true car. So move() moves both.
     """
 
     def __init__(self, scene: Scene, film_scene: Scene) -> None:
@@ -703,7 +703,7 @@ def cars_of(scene: Scene, unchanged: Scene | None) -> dict[str, Car]:
     return cars
 
 def number_text(number: float) -> str:
-    """A number with four significant digits. Less than a thousandth is shown as 0."""
+    """A number with up to four significant digits, or 0 if it is smaller than a thousandth."""
     if abs(number) < 0.001:
         return "0"
     return f"{number:.4g}"
@@ -745,7 +745,7 @@ def tell_cars(cars: dict[str, Car]) -> None:
         for energy in (car.first_energy, car.least_energy, car.most_energy, car.energy):
             row += number_text(energy).rjust(11)
         print(row)
-    print("Energy 0: at rest on the wall to which it is accelerated. Below 0: beyond it.")
+    print("Energy 0: at rest, if a is not 0 on the wall a points to. Below 0: beyond it.")
     print("The hops in frames, each from one bounce to the next, and the end:")
     for mark in marks:
         car = cars[mark]
@@ -763,8 +763,8 @@ def run(cars: dict[str, Car], view: Scene, has_details: bool, max_frames: int,
     car = cars["*"]
     scene = car.scene
     pace = Pace(scene, keys)
-    # The true car moves first, as the others are compared with it.
-    moving = [car.truth, *[each for each in cars.values() if each is not car.truth]]
+    others = [each for each in cars.values() if each is not car.truth]
+    moving = [car.truth, *others]  # the true car first, as the others are compared with it
     while True:
         # Wait until the next frame is due.
         dt_s, fps = pace.wait(car.frames, car.t_s)
@@ -792,7 +792,8 @@ def run(cars: dict[str, Car], view: Scene, has_details: bool, max_frames: int,
     print(f"Stopped after {car.frames} frames, t = {car.t_s:.2f} s: {why}.", flush=True)
 
 # ==== 7. The chart: speed against accuracy ======================================================
-# What does each method cost, and how wrong is it?
+# What does each method cost, and how wrong is it? A drawn pixel is a column of the film: 1/m_to_px
+# wide, in m.
 
 SPAN_S = 20  # of simulated time: about eight bounces in example 10, enough for errors to grow
 CUTS = 10  # runs of each method: with fewer, the largest error would depend on luck
@@ -973,9 +974,9 @@ VERDICTS = {  # from the worst to the best. W is not for one run, but for ten: s
     "S": "stuck: beyond the same wall all through the last 5 s",
     "H": "hops or hovers, over 1 mm off in the last 5 s, although the true car rests",
     "W": "as G in some runs, as L in others",
-    "G": "over a pixel off, with over 1 % too much energy on average in the last 5 s",
-    "L": "over a pixel off, with over 1 % too little energy on average in the last 5 s",
-    "P": "over a pixel off, with the right energy",
+    "G": "over a pixel off and, on average in the last 5 s, over 1 % too much energy",
+    "L": "over a pixel off and, on average in the last 5 s, over 1 % too little energy",
+    "P": "over a pixel off, but with the right energy",
     "-": "within a drawn pixel of the truth",
 }
 FROM_WORST_TO_BEST = list(VERDICTS)
@@ -1001,8 +1002,8 @@ def verdict(scene: Scene, fps: int, cut: int) -> str:
     # G, L and P are for a car that is over a drawn pixel off.
     if max(errors_m) <= 1 / scene.m_to_px:
         return "-"
-    # G or L: how much more energy than the true car had it? 100 % is its energy at the start, and
-    # what the acceleration could add on the whole length of the track.
+    # G or L: how much more energy than the true car had it? 100 % is v^2/2 at the start, and what
+    # the acceleration could add on the whole length of the track.
     all_energy = scene.v_mps**2 / 2 + abs(scene.a_mps2) * track_m
     energies = [scene.energy(sample.x_m, sample.v_mps) for sample in samples[late:]]
     true_energies = [scene.energy(sample.true_m, sample.true_mps) for sample in samples[late:]]
@@ -1015,7 +1016,7 @@ def verdict(scene: Scene, fps: int, cut: int) -> str:
 
 def cell(letters: list[str]) -> str:
     """One letter for ten runs: the worst, as a small letter if only some runs are so bad."""
-    worst = min(letters, key=FROM_WORST_TO_BEST.index)
+    worst = min(letters, key=FROM_WORST_TO_BEST.index)  # the first in this list
     if worst == "G" and "L" in letters:
         return "W"
     if letters.count(worst) < len(letters):
@@ -1083,53 +1084,60 @@ def stability(scene: Scene, title: str) -> None:
 #
 # Where does k come from? A collision is found late, so a hop ends lower (0) than it begins (*). How
 # much lower is the drop of the hop. Here it is 6 cm. The mean velocity of the hop, downwards, is
-# (w - u)/2. By (1) and (2), with the exact motion
+# (w - u)/2, and the hop lasts hop * dt. So with the exact motion
 #         drop = (w - u)/2 * hop * dt         here 6 cm = 0.1 m/s * 6 * 0.1 s
+# Put in k * g * dt for w - u:
 #         drop = k * hop * g * dt^2/2         here 6 cm = 1/2 * 12 cm
-# So with exact k is the drop, divided by hop * g * dt^2/2. With exact the motion makes no error:
-# the car has fallen lower, so it is faster. The error is made at the floor. There surface lifts the
-# car by the drop, and does not slow it.
-# Forward makes an error in each frame, too. It moves the car at the velocity that it had at the
-# start of the frame. So each frame ends g * dt^2/2 higher than with exact. With backward it ends as
-# much lower. Let s be 1 for forward, 0 for exact and -1 for backward. Then
+# So the larger the drop, the larger is k. In the hop itself there is no error: a car that has
+# fallen lower is faster. The error comes after it: surface lifts the car by the drop, and does not
+# slow it. Forward makes an error in each frame of the hop, too. It moves the car at the velocity
+# from the start of the frame, so the frame ends g * dt^2/2 higher than with exact. With backward it
+# ends as much lower. Let s be 1 for forward, 0 for exact and -1 for backward. Then
 #         drop = (k - s) * hop * g * dt^2/2
 #
 # How large is k? Take exact + surface. The hop begins on the floor. After n frames the car is
 # n * dt * (u - n * g * dt/2) above the floor. The hop ends with the first frame after which this is
 # below 0. So for n = hop it is below 0: u is less than hop * g * dt/2. For n = hop - 1 it is not: u
 # is at least (hop - 1) * g * dt/2. By (2), u is (hop - k) * g * dt/2. So k is more than 0 and at
-# most 1. With forward, the n in the brackets is n - 1, so k is larger by 1. With backward it is
-# n + 1, so k is smaller by 1. With rebound a hop begins above the floor, so its drop may be larger,
-# and k up to 1 larger. (This proof is longer. The tests check it.) In every hop of two frames or
-# more, at any CR, k is between these bounds:
+# most 1. With forward the car is n * dt * (u - (n - 1) * g * dt/2) above the floor. In the same way
+# k is more than 1 and at most 2. With backward n + 1 stands in place of n - 1, and k is more than
+# -1 and at most 0. With rebound a hop begins above the floor, so its drop may be larger, and k up
+# to 1 larger. (This proof is longer. The tests check it.) In every hop of two frames or more, at
+# any CR, k is more than the first number and at most the second:
 #
 #                  surface     rebound
 #     forward      1 to 2      1 to 3
 #     exact        0 to 1      0 to 2
 #     backward    -1 to 0     -1 to 1
 #
-# Which k a hop has depends on how late in a frame the car meets the floor, so on its start.
+# Which k a hop has depends on where in a frame the car meets the floor. So it depends on the start
+# of the film.
 #
 # What does k do?
 #     k > 0   The car gets too much energy. At CR = 1 each hop is longer than the hop before, by
 #             k + k' frames (G in the map). At CR < 1 the hops should die out, but many do not. Put
 #             next = hop and k' = k into the law: a hop of k * (1 + CR)/(1 - CR) frames repeats for
-#             ever (H), if this is a whole number and at least 2. (A car whose hops have one frame
-#             rests.) With rebound the hops may also end in a cycle, as 7 7 8 9 9 8 at CR = 0.8.
+#             ever (H), if this is a whole number and at least 2. (In hops of one frame the car
+#             meets the floor in every frame: it rests.) With rebound the hops may also end in a
+#             cycle, as 7 7 8 9 9 8 with exact + rebound at CR = 0.8.
 #     k < 0   The car gets too little energy. At CR = 1 it should hop for ever, but its hops get
-#             shorter, and it comes to rest (L).
+#             shorter, and it comes to rest (L). At CR < 1 the next hop is shorter than CR * hop.
 #     k = 0   The car gets the right energy.
 #
-# Example 19 is backward + surface at CR = 1. Its k is below 0 in each hop, so the car comes to
-# rest. Example 20 is exact + rebound at CR = 0.8. From its start the hops get to k = 1, so to
+# Example 20 is exact + rebound at CR = 0.8. From its start the hops get to k = 1, so to
 # 1 * 1.8/0.2 = 9 frames, and stay so: the car never comes to rest. With exact + surface at CR = 0.8
 # k is at most 1, so the hops that repeat have 2 to 9 frames.
 #
-# Two cases may surprise. Backward + rebound may give too much energy in one hop and too little in
-# the next, so its car gets higher and lower in turn. And with backward + surface at CR = 1, think
-# of a car that starts from rest. Its speed is always a whole number of g * dt. Then k is 0 in each
-# hop: the car hops for ever, as it should. But such a hop meets the floor at the very end of a
-# frame. Round-off may find it there, one frame too early, and then k is -1 in this hop.
+# Example 19 is backward + surface at CR = 1, so k is more than -1 and at most 0. When is it 0? By
+# (2), k is hop - 2 * u/(g * dt). If 2 * u is a whole number of g * dt, k is a whole number, too, so
+# it is 0. In example 19 this never happens: g * dt is 0.2 m/s, and the start velocity is 0.098 m/s.
+# Each frame changes the velocity by 0.2 m/s, and a bounce changes only its sign. So k is below 0 in
+# each hop, and the car comes to rest. But for a car that starts from rest 2 * u is a whole number
+# of g * dt. So it hops for ever, as it should. (Such a hop meets the floor at the very end of a
+# frame. Because of round-off the program may find the collision there, one frame too early. Then k
+# is -1.)
+#
+# Backward + rebound may have k above and below 0 in turn, so its car gets higher and lower.
 
 # The physics ends here.
 
@@ -1174,6 +1182,7 @@ def film(scene: Scene, wanted: Wanted) -> None:
     if view.width_px < scene.width_px:
         say(f"The picture is drawn {view.width_px} columns wide, to fit into the terminal.")
     cars = cars_of(scene, unchanged)
+    # With --fast nothing is taken, so nothing needs to be given back.
     taking = nullcontext(NoKeys()) if wanted.is_fast else taken_keys()
     with taking as keys:
         question = example.look_for
