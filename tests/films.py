@@ -8,7 +8,6 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise, product
 from pathlib import Path
@@ -23,8 +22,6 @@ if sys.platform != "win32":
     import fcntl
     import struct
     import termios
-
-State = tuple[float, float, float | None]  # x_m, v_mps and mark_m
 
 HERE = Path(__file__).resolve().parent.parent
 COMMAND = [sys.executable, str(HERE / "airtrack.py")]
@@ -68,9 +65,17 @@ def environment(**changes: str | None) -> dict[str, str]:
     return {name: value for name, value in wanted.items() if value is not None}
 
 
+State = tuple[float, float, float | None]  # x_m, v_mps (or the true x_m) and mark_m
+
+
+def changed(number: int, changes: dict[str, Any]) -> Scene:
+    """The scene of an example with changes."""
+    return Scene(**EXAMPLES[number].settings | changes)
+
+
 def states(number: int, frames: int, **changes: object) -> list[State]:
     """x, v and mark_m after each frame of an example with changes, each as long as planned."""
-    return states_of(Scene(**EXAMPLES[number].settings | changes), frames)
+    return states_of(changed(number, changes), frames)
 
 
 def lengths_s(scene: Scene, frames: int) -> list[float]:
@@ -96,34 +101,29 @@ def collisions(found: list[State]) -> list[int]:
 
 def hops(scene: Scene, number: int) -> list[int]:
     """The first hops of a film in lines, from each in which a collision is found to the next."""
-    x_m, v_mps, line, found = scene.x_m, scene.v_mps, 0, list[int]()
+    frames, found = 100, list[int]()
     while len(found) <= number:
-        line += 1
-        x_m, v_mps, mark_m = step(scene, x_m, v_mps, 1 / scene.fps_target)
-        if mark_m is not None:
-            found.append(line)
-    return [after - before for before, after in pairwise(found)]
+        frames *= 2
+        found = collisions(states_of(replace(scene, use_observed_dt=False), frames))
+    return [after - before for before, after in pairwise(found[:number + 1])]
 
 
 def hops_nearby(number: int, lines: int, **changes: object) -> list[list[int]]:
     """The hops of an example with changes, its x and v nine times shifted by up to 0.1 %."""
-    scene = Scene(**EXAMPLES[number].settings | changes)
+    scene = changed(number, changes)
     return [hops(replace(scene, x_m=scene.x_m * of_x, v_mps=scene.v_mps * of_v), lines)
             for of_x, of_v in product((1 - 1e-3, 1, 1 + 1e-3), repeat=2)]
 
 
-Beside = list[tuple[float, float, float | None]]  # x, the true x and mark_m, frame by frame
-
-
-def beside_the_truth(number: int, frames: int, **changes: object) -> Beside:
-    """An example with changes, beside the truth: one step of any length from the start."""
-    scene = Scene(**EXAMPLES[number].settings | changes)
+def beside_the_truth(number: int, frames: int, **changes: object) -> list[State]:
+    """x, the true x (one step of any length from the start) and mark_m, frame by frame."""
+    scene = changed(number, changes)
     truth = truth_of(scene)
     return [(x_m, step(truth, truth.x_m, truth.v_mps, frame / scene.fps_target)[0], mark_m)
             for frame, (x_m, _, mark_m) in enumerate(states_of(scene, frames), 1)]
 
 
-def apart_m(found: Beside) -> float:
+def apart_m(found: list[State]) -> float:
     return max(abs(x_m - true_m) for x_m, true_m, _ in found)
 
 
@@ -168,18 +168,11 @@ class Terminal(contextlib.AbstractContextManager["Terminal"]):
         return termios.tcgetattr(self.ours)
 
     def press(self, keys: str) -> None:
-        """Type keys, or send the signal of that name."""
+        """Type keys, or send the signal of that name to what runs in the foreground."""
         if keys.startswith("SIG"):
-            self.program.send_signal(signal.Signals[keys])
+            os.killpg(os.tcgetpgrp(self.ours), signal.Signals[keys])
         else:
             os.write(self.ours, keys.encode())
-
-    def stop(self, key: str) -> None:
-        """Stop what runs in the foreground of a shell: by Ctrl-Z, or by SIGSTOP."""
-        if key == "SIGSTOP":
-            os.killpg(os.tcgetpgrp(self.ours), signal.SIGSTOP)
-        else:
-            self.press(key)
 
     def hang_up(self) -> None:
         """Take the terminal away."""
@@ -203,16 +196,15 @@ class Terminal(contextlib.AbstractContextManager["Terminal"]):
                 self.read(0.05)
             self.seen = self.all.index(text, self.seen) + len(text)
 
-    def ends(self, status: int) -> None:
-        """Wait for the end: with this status, without a traceback, the terminal as found."""
-        self.ends_with([status])
+    def goes_on(self) -> None:
+        """Wait until frames come for which it has looked at the keys again."""
+        while self.read(0):
+            pass
+        self.seen = len(self.all)
+        self.until("FPS", "FPS", "FPS")  # the first may be of an earlier look
 
-    def ends_by(self, *signals: str) -> None:
-        """Wait for the end by one of these signals, as a shell sees it."""
-        numbers = [signal.Signals[name] for name in signals]
-        self.ends_with([128 + each for each in numbers] + [-each for each in numbers])
-
-    def ends_with(self, statuses: Sequence[int]) -> None:
+    def ends(self, *statuses: int) -> None:
+        """Wait for the end: with such a status, without a traceback, the terminal as found."""
         deadline_s = time.monotonic() + PATIENCE_S
         while self.program.poll() is None or self.read(0):
             assert time.monotonic() < deadline_s, f"it does not end: {self.all[-1000:]}"

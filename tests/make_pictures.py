@@ -24,6 +24,7 @@ from airtrack import (  # noqa: E402
     METHODS,
     make_parser,
     measure,
+    method_text,
     read_command_line,
     render_track,
     scene_of,
@@ -64,7 +65,7 @@ def moving_picture(file: Path) -> None:
                    duration=[100] * (len(frames) - 1) + [2000], optimize=False)
 
 
-def chart(words: list[str], file: str) -> Figure:
+def chart(words: list[str], file: str) -> None:
     """Measure as the program's chart does, and draw the points on two logarithmic scales."""
     wanted = read_command_line(make_parser(), ["chart", *words])
     scene = scene_wanted(wanted)
@@ -79,30 +80,27 @@ def chart(words: list[str], file: str) -> Figure:
     for (letter, series), marker in zip(measure(scene).items(), "oxD+v", strict=True):
         errors_m = [max(point.error_m, 1e-16) for point in series]  # 0 has no logarithm
         costs_us = [point.cost_us for point in series]
-        label = f"{letter}: {' + '.join(METHODS[letter])}"
+        label = f"{letter}: {method_text(*METHODS[letter])}"
         axes.plot(errors_m, costs_us, f"{marker}-", label=label)
         for end in (0, -1):  # the lowest and the highest rate
             axes.annotate(f" {series[end].fps} FPS", (errors_m[end], costs_us[end]), fontsize=7)
     axes.axvline(1 / scene.m_to_px, color="black", linestyle="--", label="one drawn pixel")
     figure.legend(loc="outside lower center", ncols=3)
     figure.savefig(file)
-    return figure
 
 
 SHEET_FRAMES = 53  # up to the second return
 SHEET_COLUMNS = 67  # up to the right wall
-SHEET_SCALE = {"m_to_px": 30.0, "width_px": SHEET_COLUMNS}
-MARKS_M = [0.5, 1.0, 1.5, 2.0]
 
 
 def worksheet() -> str:
     """Example 8 for pupils: 58 lines of at most 72 columns, with scales for x and t."""
-    scene = scene_of(EXAMPLES[8].settings | SHEET_SCALE)
+    scene = scene_of(EXAMPLES[8].settings | {"m_to_px": 30.0, "width_px": SHEET_COLUMNS})
     dt_s = 1 / scene.fps_target
+    marked = {round(x_m * scene.m_to_px): str(x_m) for x_m in (0.5, 1.0, 1.5, 2.0)}
     axis = list("x (m)".ljust(SHEET_COLUMNS) + "t (s)")
-    for mark_m in MARKS_M:
-        column = round(mark_m * scene.m_to_px)
-        axis[column - 1:column + 2] = str(mark_m)
+    for column, text in marked.items():
+        axis[column - 1:column + 2] = text
     lines = [
         "Example 8: Elastic, large steps                    Name:",
         "No speed is lost in a bounce. How near to its start, the dots at 2 m,",
@@ -114,8 +112,7 @@ def worksheet() -> str:
         x_m, v_mps, found_m = step(scene, x_m, v_mps, dt_s)
         line = list(render_track(scene, {"*": x_m}, found_m))
         if frame == 1 or frame % 5 == 0:
-            for place_m in MARKS_M:
-                column = round(place_m * scene.m_to_px)
+            for column in marked:
                 if line[column] == " ":
                     line[column] = "."
             line.append(f"{frame * dt_s:5.1f}")
@@ -126,13 +123,12 @@ def worksheet() -> str:
 def main(words: list[str]) -> None:
     if words == ["sheet"]:
         print(worksheet(), end="")
-        return
-    if words:
+    elif words:
         chart(words[1:-1], words[-1])
-        return
-    moving_picture(HERE / ".github/example-17.gif")
-    chart([], str(HERE / ".github/chart.png"))
-    (HERE / ".github/worksheet.txt").write_text(worksheet())
+    else:
+        moving_picture(HERE / ".github/example-17.gif")
+        chart([], str(HERE / ".github/chart.png"))
+        (HERE / ".github/worksheet.txt").write_text(worksheet())
 
 
 if __name__ == "__main__":

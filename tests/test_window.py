@@ -7,13 +7,11 @@ import shutil
 import subprocess
 import sys
 import time
-from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
-from typing import NamedTuple
 
 import pytest
-from PIL import ImageGrab
+from PIL import Image, ImageGrab
 
 from films import COMMAND, HERE, PATIENCE_S, Terminal, environment, quick
 
@@ -27,155 +25,121 @@ FACE = "Enter: begin p: pause s: step x: quit"
 WHITE, BLACK = (255, 255, 255), (0, 0, 0)
 
 
-class Screen(NamedTuple):
-    """An X server without a window manager."""
-
-    name: str
-
-    def xdotool(self, *words: str) -> str:
-        return subprocess.run(["xdotool", *words], env=environment(DISPLAY=self.name), text=True,
-                              capture_output=True, check=False, timeout=PATIENCE_S).stdout.strip()
-
-    def window_of(self, process: "subprocess.Popen[bytes]") -> str:
-        """Its window, when it has come."""
-        return self.xdotool("search", "--sync", "--onlyvisible", "--pid", str(process.pid))
-
-
 @pytest.fixture(scope="module")
-def screen() -> Iterator[Screen]:
+def screen() -> Iterator[str]:
+    """The name of an X server without a window manager."""
     read, write = os.pipe()
     # Without -noreset it starts anew when its last window closes, and loses what comes meanwhile.
     with subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", "800x600x24",
                            "-noreset"], pass_fds=[write], stderr=subprocess.DEVNULL) as server:
         os.close(write)
         with os.fdopen(read) as pipe:
-            yield Screen(f":{pipe.readline().strip()}")
+            yield f":{pipe.readline().strip()}"
         server.terminate()
 
 
-class Film:
-    """A run with a window. Its output goes into a file, so only the window has keys."""
+class Window:
+    """The window of a film, when it has come."""
 
-    def __init__(self, screen: Screen, process: "subprocess.Popen[bytes]", out: Path) -> None:
-        self.screen, self.process, self.out = screen, process, out
-        self.window = screen.window_of(process)
-        self.shows_its_keys()
-        screen.xdotool("windowfocus", "--sync", self.window)
+    def __init__(self, screen: str, film: Terminal) -> None:
+        self.screen = screen
+        self.name = self.xdotool("search", "--sync", "--onlyvisible", "--pid",
+                                 str(film.program.pid))
+        self.xdotool("windowfocus", "--sync", self.name)
 
-    def press(self, *keys: str) -> None:
-        self.screen.xdotool("key", *keys)
+    def xdotool(self, *words: str) -> str:
+        return subprocess.run(["xdotool", *words], env=environment(DISPLAY=self.screen), text=True,
+                              capture_output=True, check=False, timeout=PATIENCE_S).stdout.strip()
 
     def place(self) -> list[int]:
         """Left, top, width and height."""
-        geometry = self.screen.xdotool("getwindowgeometry", "--shell", self.window)
+        geometry = self.xdotool("getwindowgeometry", "--shell", self.name)
         return [int(re.findall(f"{name}=([0-9]+)", geometry)[0])
                 for name in ("X", "Y", "WIDTH", "HEIGHT")]
 
-    def face(self, margin_px: int = 150) -> Counter[object]:
-        """How often each colour is on it, or on its left and right margins: a screenshot."""
+    def face(self) -> Image.Image:
+        """A screenshot."""
         left, top, width, height = self.place()
-        counts: Counter[object] = Counter()
-        for at in (left, left + width - margin_px):
-            box = at, top, at + margin_px, top + height
-            for count, colour in ImageGrab.grab(box, xdisplay=self.screen.name).getcolors() or []:
-                counts[colour] += count
-        return counts
+        box = left, top, left + width, top + height
+        return ImageGrab.grab(box, xdisplay=self.screen)
 
     def shows_its_keys(self) -> None:
         """Wait until caption and face do, and no word is cut off."""
         deadline_s = time.monotonic() + PATIENCE_S
         while True:
-            assert self.process.poll() is None, self.out.read_text()[-200:]
-            shown, counts = self.screen.xdotool("getwindowname", self.window), self.face()
-            words = " ".join(shown.split())
-            if words == FACE and counts[WHITE] > 300 * 20 / 2 and counts[BLACK] > 100:
+            caption = " ".join(self.xdotool("getwindowname", self.name).split())
+            face = self.face()
+            counts = {colour: count for count, colour in face.getcolors() or []}
+            if caption == FACE and counts.get(WHITE, 0) > 3000 and counts.get(BLACK, 0) > 100:
                 break
-            assert time.monotonic() < deadline_s, (shown, counts.most_common(3))
+            assert time.monotonic() < deadline_s, (caption, counts)
             time.sleep(0.05)
-        assert set(self.face(margin_px=3)) == {WHITE}
-
-    def goes_on(self) -> None:
-        """Wait for some more frames, and so for a look at the keys."""
-        size, deadline_s = self.out.stat().st_size, time.monotonic() + PATIENCE_S
-        while self.out.stat().st_size < size + 1000:
-            assert time.monotonic() < deadline_s
-            time.sleep(0.01)
-
-    def stands_still(self) -> None:
-        """Wait until no more frames come."""
-        deadline_s, size = time.monotonic() + PATIENCE_S, -1
-        while self.out.stat().st_size != size:
-            assert time.monotonic() < deadline_s
-            size = self.out.stat().st_size
-            time.sleep(0.4)
-
-    def ends(self, why: str) -> str:
-        """Wait for the end: with this reason. All that was printed."""
-        assert self.process.wait(PATIENCE_S) == 0
-        out = self.out.read_text()
-        assert f" s: {why}.\n" in out
-        return out
+        width, height = face.size
+        for left in (0, width - 3):
+            edge = face.crop((left, 0, left + 3, height))
+            assert edge.getcolors() == [(3 * height, WHITE)]
 
 
 @pytest.fixture
-def film(screen: Screen, tmp_path: Path) -> Iterator[Film]:
-    with (tmp_path / "out").open("wb") as out, subprocess.Popen(
-            quick(pause_s=1e6), stdin=subprocess.DEVNULL, stdout=out, stderr=out, cwd=HERE,
-            env=environment(DISPLAY=screen.name, SDL_VIDEODRIVER=None)) as process:
-        try:
-            yield Film(screen, process, tmp_path / "out")
-        finally:
-            process.kill()
+def film(screen: str) -> Iterator[Terminal]:
+    """A film whose input is no terminal, so that only its window has keys."""
+    with Terminal("sh", "-c", 'exec "$@" < /dev/null', "sh", *quick(pause_s=1e6),
+                  DISPLAY=screen, SDL_VIDEODRIVER=None) as terminal:
+        terminal.until("Keys in the little window: p ")
+        yield terminal
 
 
 @needs_window
-def test_caption_and_face_say_what_the_keys_do_and_they_do_it(film: Film) -> None:
-    assert film.place() == [60, 60, 300, 20]  # away from the film's newest line
-    film.press("Return")
-    film.goes_on()
-    film.press("p")
-    film.stands_still()
-    lines = film.out.read_text().count("\n")
-    film.press("s", "s")
-    film.stands_still()
-    assert film.out.read_text().count("\n") == lines + 2
+def test_caption_and_face_say_what_the_keys_do_and_they_do_it(screen: str, film: Terminal) -> None:
+    window = Window(screen, film)
+    window.shows_its_keys()
+    assert window.place()[:2] == [60, 60]  # away from the film's newest line
+    window.xdotool("key", "Return")
+    film.until("FPS")
+    for key in ("p", "s"):
+        window.xdotool("key", key)
+        film.until("paused after frame ")
     for change in ("windowunmap", "windowmap", "windowfocus"):  # it was covered, and is not
-        film.screen.xdotool(change, "--sync", film.window)
-    film.shows_its_keys()
-    film.press("ctrl+s")
-    film.goes_on()
-    film.press("Escape")
-    assert "\nKeys in the little window: p pauses" in film.ends("Esc was pressed")
+        window.xdotool(change, "--sync", window.name)
+    window.shows_its_keys()
+    window.xdotool("key", "ctrl+s")
+    film.until("FPS")
+    window.xdotool("key", "Escape")
+    film.until(" s: Esc was pressed.\r\n")
+    film.ends(0)
 
 
 @needs_window
-def test_other_keys_in_the_window_do_nothing(film: Film) -> None:
-    film.press("KP_Enter")
+def test_other_keys_in_the_window_do_nothing(screen: str, film: Terminal) -> None:
+    window = Window(screen, film)
+    window.xdotool("key", "KP_Enter")
     for key in ("Up", "F1", "q", "shift", "alt+x", "super+x", "ISO_Level3_Shift+x",
                 "203+x", "ctrl+x", "ctrl+semicolon", "alt+p", "ctrl+p"):  # 203: Mode_switch
-        film.press(key)
+        window.xdotool("key", key)
         film.goes_on()
-    film.press("X")
-    film.ends("x was pressed")
+    window.xdotool("key", "X")
+    film.until(" s: x was pressed.\r\n")
+    film.ends(0)
 
 
 @needs_window
-def test_closing_the_window_quits(screen: Screen) -> None:
+def test_closing_the_window_quits(screen: str) -> None:
     close = "pygame.event.post(pygame.event.Event(pygame.QUIT))"  # as a click on its x does
-    program = quick("import pygame; real = airtrack.step; "
-                    f"airtrack.step = lambda *a: [{close}, real(*a)][1]")
-    with Terminal(*program, DISPLAY=screen.name, SDL_VIDEODRIVER=None) as terminal:
+    change = f"airtrack.step = lambda *a: [{close}, real(*a)][1]"
+    program = quick(f"import pygame; real = airtrack.step; {change}")
+    with Terminal(*program, DISPLAY=screen, SDL_VIDEODRIVER=None) as terminal:
         terminal.until(" s: the window was closed.\r\n")
         terminal.ends(0)
 
 
 @needs_window
-def test_window_and_terminal_serve_together_and_a_signal_ends_both(screen: Screen) -> None:
-    with Terminal(*quick(pause_s=1e6), DISPLAY=screen.name, SDL_VIDEODRIVER=None) as terminal:
+def test_window_and_terminal_serve_together_and_a_signal_ends_both(screen: str) -> None:
+    with Terminal(*quick(pause_s=1e6), DISPLAY=screen, SDL_VIDEODRIVER=None) as terminal:
         terminal.until("Keys here and in the little window: p ", "+06 s, ")
-        window = screen.window_of(terminal.program)
-        screen.xdotool("windowfocus", "--sync", window, "key", "ctrl+c")
-        terminal.until("   *\r\n  * *\r\n *   *\r\n  * *\r\n   *\r\n", "FPS", "FPS")
+        Window(screen, terminal).xdotool("key", "ctrl+c")
+        terminal.until("   *\r\n  * *\r\n *   *\r\n  * *\r\n   *\r\n", "FPS")
+        terminal.press("s")
+        terminal.until("paused after frame ")
         terminal.press("SIGTERM")
         terminal.ends(143)
 
@@ -192,8 +156,8 @@ def why_shut(*options: str, **changes: str | None) -> str:
 
 
 @needs_window
-def test_it_opens_without_a_word_and_leaves_the_sound_system_alone(screen: Screen) -> None:
-    assert why_shut(DISPLAY=screen.name, SDL_VIDEODRIVER=None) == ""
+def test_it_opens_without_a_word_and_leaves_the_sound_system_alone(screen: str) -> None:
+    assert why_shut(DISPLAY=screen, SDL_VIDEODRIVER=None) == ""
 
 
 def test_without_pygame_it_stays_shut_and_says_that() -> None:
@@ -201,7 +165,6 @@ def test_without_pygame_it_stays_shut_and_says_that() -> None:
 
 
 @pytest.mark.parametrize(("text", "fault"), [
-    ("raise ModuleNotFoundError('No module', name='pygame')", "No module"),
     ("def", "invalid syntax (__init__.py, line 1)"),
     ("import warnings; warnings.warn('old'); raise OSError(7)", "7")])
 def test_with_a_broken_pygame_it_stays_shut_and_says_the_fault(
