@@ -42,10 +42,10 @@ README.md says what this is good for. .github/lesson.md is a lesson for a class.
 # Order 1 means that frames of half the length make half the error, and order 2 that they make a
 # quarter. Methods d and e have no order: where they are right, their only error is round-off. The
 # energy is told for a car that bounces on the wall to which it is accelerated, as a ball bounces on
-# a floor. Methods b to e need a constant acceleration. Methods a to d need short frames. In a frame
-# that is longer than the time between two bounces, they may miss a bounce or settle only one of
-# two, and they may throw the car out at the other end of the track. Replay is different: it works
-# out the whole frame, from bounce to bounce.
+# a floor. Methods b to e need a constant acceleration. Methods a to d need short frames. In a
+# frame they settle one bounce, and miss it if the car is back on the track when the frame ends
+# (example 18). If a move is longer than the track, they may throw the car out at the other end.
+# Replay is different: it works out the whole frame, from bounce to bounce.
 
 import argparse
 import difflib
@@ -127,7 +127,7 @@ MOTIONS = {"forward": forward, "backward": backward, "exact": exact}
 #     conserve   0       |     *             -0.064      -1.07     1.86
 #     rewind     0       |    *              -0.048      -1.33     1.86
 #
-# A bounce keeps the part CR of the speed, so it keeps CR^2 of the energy: 0.64 * 2.90 is 1.86.
+# A bounce, at depth 0, keeps the part CR of the speed, so CR^2 of the energy: 0.64 * 2.90 is 1.86.
 # Only conserve and rewind leave the right energy. Only rewind leaves the right place, too.
 #
 # The five corrections of this section take the same four arguments, and return a new depth_m and a
@@ -210,13 +210,14 @@ def rewind(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> 
     than the track is long, rewind may throw the car out, too.
     """
     # Run the film backwards: the car comes out of the wall. When is it at the wall, and how fast?
-    # In a film that runs backwards a velocity is reversed, and an acceleration is not. So towards
-    # the wall, from inside, the velocity is +inward_mps, and the acceleration is -inward_mps2.
+    # In a film that runs backwards a velocity is reversed, and an acceleration is not. So they are
+    # -inward_mps and inward_mps2. Both count inwards. But arrival() counts towards the wall, and
+    # for a car in the wall this is outwards: both change their sign.
     late_s, met_mps = arrival(depth_m, inward_mps, -inward_mps2)  # 0.030 s, 2.41 m/s
     # Run it forwards again, from the wall, after the bounce, for the same time.
     new_depth_m, new_inward_mps = exact(0.0, -CR * met_mps, inward_mps2, late_s)
-    # If the car is in the wall again, there was a second bounce. Put it on the wall, and leave the
-    # second bounce to the next frame.
+    # If the car is in the wall again, there was a second bounce. Put it on the wall, at this speed,
+    # and leave the second bounce to the next frame. (So it has a little too much energy.)
     return min(new_depth_m, 0.0), new_inward_mps
 
 CORRECTIONS = {"none": none, "surface": surface, "rebound": rebound, "conserve": conserve,
@@ -346,8 +347,8 @@ def next_bounce(h_m: float, rise_mps: float, g_mps2: float,
     # To rise to the ceiling takes the energy g * (room - h). A ball may touch the ceiling at almost
     # no speed, and then round-off would decide whether it does. So a ball that would turn back less
     # than GRAZE_M beyond the ceiling does not meet it.
-    energy_to_ceiling = g_mps2 * (room_m - h_m + GRAZE_M)
-    if rise_mps > 0 and rise_mps * rise_mps / 2 >= energy_to_ceiling:
+    energy_to_meet_it = g_mps2 * (room_m - h_m + GRAZE_M)
+    if rise_mps > 0 and rise_mps * rise_mps / 2 >= energy_to_meet_it:
         flight_s, speed_mps = arrival(room_m - h_m, rise_mps, -g_mps2)
         return "ceiling", flight_s, speed_mps
     flight_s, speed_mps = arrival(h_m, -rise_mps, g_mps2)
@@ -551,7 +552,7 @@ class Pace:
         """
         planned_s = planned_length(self.scene, frames + 1)
         self.due_s += planned_s
-        was_timed = self.keys.wait_until(self.due_s, frames, t_s)  # not after a pause
+        was_timed = self.keys.wait_until(self.due_s, frames, t_s)  # False after a pause
         now_s = time.perf_counter()
         lasted_s = now_s - self.shown_s
         self.shown_s = now_s
@@ -638,10 +639,10 @@ class Car:
         if scene.correction == "replay":
             return False  # a true car that does not lie still hops, however low
         # Other methods may never leave the car quite still. So it is enough that its mean distance
-        # from the floor is small, and that it is no faster than a gives it in these frames.
+        # from the floor is small, and its speed no larger than what it could gain in these frames.
         floor_m = scene.floor_m()
         if abs(self.x_m - floor_m) > REST_M * self.rest_frames:
-            return False  # this distance alone makes the mean too large
+            return False  # the quick way out: this distance alone makes the mean too large
         gained_mps = abs(scene.a_mps2) * self.rest_frames / scene.fps_target
         if abs(self.v_mps) > gained_mps:
             return False
@@ -745,7 +746,7 @@ def tell_cars(cars: dict[str, Car]) -> None:
         for energy in (car.first_energy, car.least_energy, car.most_energy, car.energy):
             row += number_text(energy).rjust(11)
         print(row)
-    print("Energy 0: at rest, if a is not 0 on the wall a points to. Below 0: beyond it.")
+    print("Energy 0 is a car at rest: on its floor, if it is accelerated. Below 0 is lower.")
     print("The hops in frames, each from one bounce to the next, and the end:")
     for mark in marks:
         car = cars[mark]
@@ -1088,22 +1089,25 @@ def stability(scene: Scene, title: str) -> None:
 #         drop = (w - u)/2 * hop * dt         here 6 cm = 0.1 m/s * 6 * 0.1 s
 # Put in k * g * dt for w - u:
 #         drop = k * hop * g * dt^2/2         here 6 cm = 1/2 * 12 cm
-# So the larger the drop, the larger is k. In the hop itself there is no error: a car that has
-# fallen lower is faster. The error comes after it: surface lifts the car by the drop, and does not
-# slow it. Forward makes an error in each frame of the hop, too. It moves the car at the velocity
-# from the start of the frame, so the frame ends g * dt^2/2 higher than with exact. With backward it
-# ends as much lower. Let s be 1 for forward, 0 for exact and -1 for backward. Then
+# So of two hops of one length, the hop with the larger drop has the larger k. In the hop itself
+# there is no error: a car that has fallen lower is faster. The error comes after it: surface lifts
+# the car by the drop, and does not slow it. Forward makes an error in each frame of the hop, too.
+# It moves the car at the velocity from the start of the frame, so the frame ends g * dt^2/2 higher
+# than with exact. With backward it ends as much lower. Let s be 1 for forward, 0 for exact and -1
+# for backward. Then
 #         drop = (k - s) * hop * g * dt^2/2
 #
-# How large is k? Take exact + surface. The hop begins on the floor. After n frames the car is
-# n * dt * (u - n * g * dt/2) above the floor. The hop ends with the first frame after which this is
-# below 0. So for n = hop it is below 0: u is less than hop * g * dt/2. For n = hop - 1 it is not: u
-# is at least (hop - 1) * g * dt/2. By (2), u is (hop - k) * g * dt/2. So k is more than 0 and at
-# most 1. With forward the car is n * dt * (u - (n - 1) * g * dt/2) above the floor. In the same way
-# k is more than 1 and at most 2. With backward n + 1 stands in place of n - 1, and k is more than
-# -1 and at most 0. With rebound a hop begins above the floor, so its drop may be larger, and k up
-# to 1 larger. (This proof is longer. The tests check it.) In every hop of two frames or more, at
-# any CR, k is more than the first number and at most the second:
+# How large is k? Take exact + surface. The hop begins on the floor. It ends with the first frame
+# after which the car is below the floor:
+#         height after n frames = n * dt * (u - n * g * dt/2)
+#         for n = hop it is below 0:          u is less than hop * g * dt/2
+#         for n = hop - 1 it is not:          u is at least (hop - 1) * g * dt/2
+#         by (2):                             u is (hop - k) * g * dt/2
+# So k is more than 0 and at most 1. With forward, n - 1 stands in the brackets in place of n, and k
+# is more than 1 and at most 2. With backward n + 1 stands there, and k is more than -1 and at most
+# 0. With rebound a hop begins above the floor, so its drop may be larger, and k up to 1 larger.
+# (This proof is longer. The tests check it.) In every hop of two frames or more, at any CR, and but
+# for round-off, k is more than the first number and at most the second:
 #
 #                  surface     rebound
 #     forward      1 to 2      1 to 3
@@ -1116,10 +1120,12 @@ def stability(scene: Scene, title: str) -> None:
 # What does k do?
 #     k > 0   The car gets too much energy. At CR = 1 each hop is longer than the hop before, by
 #             k + k' frames (G in the map). At CR < 1 the hops should die out, but many do not. Put
-#             next = hop and k' = k into the law: a hop of k * (1 + CR)/(1 - CR) frames repeats for
-#             ever (H), if this is a whole number and at least 2. (In hops of one frame the car
-#             meets the floor in every frame: it rests.) With rebound the hops may also end in a
-#             cycle, as 7 7 8 9 9 8 with exact + rebound at CR = 0.8.
+#             next = hop and k' = k into the law:
+#                 hop = CR * (hop + k) + k,  so  hop * (1 - CR) = k * (1 + CR)
+#             So a hop of k * (1 + CR)/(1 - CR) frames repeats for ever (H), if this is a whole
+#             number and at least 2. (In hops of one frame the car meets the floor in every frame:
+#             it rests.) With rebound the hops may also end in a cycle, as 7 7 8 9 9 8 with exact +
+#             rebound at CR = 0.8.
 #     k < 0   The car gets too little energy. At CR = 1 it should hop for ever, but its hops get
 #             shorter, and it comes to rest (L). At CR < 1 the next hop is shorter than CR * hop.
 #     k = 0   The car gets the right energy.
@@ -1401,7 +1407,7 @@ def obey(argv: list[str]) -> None:
         wanted = read_command_line(parser, argv)
         scene = scene_wanted(wanted)
     except ValueError as fault:
-        parser.error(str(fault))
+        parser.error(str(fault))  # this prints the text and ends the program
     if wanted.command in COMMANDS:
         COMMANDS[wanted.command](scene, f"Scene {wanted.number}: {start_text(scene)}")
     else:
@@ -1422,12 +1428,12 @@ def main(argv: list[str] | None = None) -> int:
     if argv is None:
         argv = sys.argv[1:]
     try:
-        status = status_of([word.replace("\u2212", "-") for word in argv])  # pages print this minus
+        status = status_of([word.replace("\u2212", "-") for word in argv])  # a typeset minus
         sys.stdout.flush()
     except BrokenPipeError:
         return 0  # nobody reads any more, as after | head
     except OSError as fault:  # the disk is full, say
-        with suppress(OSError):  # nor may this be possible
+        with suppress(OSError):  # the error may not be printable, either
             print(f"airtrack.py: error: {fault}", file=sys.stderr)
         return 2
     return status
