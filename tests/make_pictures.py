@@ -5,7 +5,7 @@
     python tests/make_pictures.py chart [EXAMPLE] [NAME=VALUE ...] FILE  a .png, .svg or .pdf
 
 The moving picture is a terminal in which a film scrolls. The worksheet is example 8 on one page of
-A4, without the answer. It is kept in .github/worksheet.txt.
+A4, without the answer, and the tasks on a second page. It is kept in .github/worksheet.txt.
 """
 
 import subprocess
@@ -93,8 +93,30 @@ SHEET_FRAMES = 53  # up to the second return
 SHEET_COLUMNS = 67  # up to the right wall
 
 
+TASKS = """
+Tasks
+
+1. Mark the two bounces. At what time are they?
+
+2. Until its first bounce the true car is at x = 2 - t^2. Mark it at
+   t = 0.5, 1.0 and 1.2 s. How many columns is the * from it at 1.0 s?
+
+3. How many columns before the dots does the car turn: the first time,
+   and the second time?
+
+4. A column is 3.3 cm, so the picture is not exact. Exactly, the first 0
+   is 7 cm beyond the wall, and the second 0 is 19 cm beyond it. The
+   program puts the car as far in front of the wall. How many cm higher
+   does it lift the car: in the first bounce, and in the second?
+
+5. In each step the program takes 1 cm from the way of the car. From
+   one turn to the next there are 26 steps. How far does the car come
+   after the first bounce, and after the second? Use your answer to 4.
+"""
+
+
 def worksheet() -> str:
-    """Example 8 for pupils: 58 lines of at most 72 columns, with scales for x and t."""
+    """Example 8 for pupils: 58 lines of at most 72 columns, with scales, and the tasks."""
     scene = scene_of(EXAMPLES[8].settings | {"m_to_px": 30.0, "width_px": SHEET_COLUMNS})
     dt_s = 1 / scene.fps_target
     marked = {round(x_m * scene.m_to_px): str(x_m) for x_m in (0.5, 1.0, 1.5, 2.0)}
@@ -117,7 +139,7 @@ def worksheet() -> str:
                     line[column] = "."
             line.append(f"{frame * dt_s:5.1f}")
         lines.append("".join(line).rstrip())
-    return "\n".join(lines) + "\n"
+    return "\n".join(lines) + "\n" + TASKS
 
 
 def main(words: list[str]) -> None:

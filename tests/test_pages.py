@@ -482,10 +482,13 @@ def test_the_figures_of_example_13() -> None:
     truth = truth_of(Scene(**EXAMPLES[13].settings))
     true_xs = [step(truth, truth.x_m, truth.v_mps, n / 10)[0] for n in range(1, 21)]
     xs = [x_m for x_m, *_ in found]
-    says("LESSON", "It turned at {:.2f} m. The `o` turned at {:.2f} m, a line earlier", max(xs),
-         max(true_xs))
+    says("LESSON", "It turned at {:.2f} m, in line 13. The `o` turned at {:.2f} m, a line earlier",
+         max(xs), max(true_xs))
     assert (xs.index(max(xs)), true_xs.index(max(true_xs))) == (12, 11)
-    says("LESSON", "That is {:.0f} cm in line 15", 100 * (xs[14] - true_xs[14]))
+    says("LESSON", "In line 15 both go back, and the `*` is {:.0f} cm further to the right",
+         100 * (xs[14] - true_xs[14]))
+    assert xs[14] < xs[13]
+    assert true_xs[14] < true_xs[13]
     says("LESSON", "is worth |a| * 0.01 m = {:.2f} J/kg. After 15 steps that is {:.2f} J/kg",
          2 * 0.01, 15 * 0.02)
     says("LESSON", "the energy grew from {:.3f} to {:.3f} J/kg", energy(13, 0.25, 2.48),
@@ -501,16 +504,14 @@ def test_the_energies_of_example_8() -> None:
     (low, high, depth_m), (low_2, high_2, depth_2_m) = bounces
     says("LESSON", "| start | {:.2f} J/kg |", energy(8, 2.0, 0.0))
     says("LESSON", "{:.2f} > {:.2f} J/kg | 13 steps have taken 13 * 0.02 = {:.2f}. The bounce "
-         "gives {:.2f}.", low, high, 13 * 0.02, high - low)
-    says("LESSON", "{:.2f} > {:.2f} J/kg | 26 steps have taken {:.2f}. The bounce gives {:.2f}.",
-         low_2, high_2, 26 * 0.02, high_2 - low_2)
-    says("LESSON", "2 * 2 * {:.2f} = {:.2f} and 2 * 2 * {:.2f} = {:.2f}", depth_m,
-         high - low, depth_2_m, high_2 - low_2)
-    says("LESSON", "it comes back to {:.2f} m, then to {:.0f} m", *(
-        max(x_m for x_m, *_ in found[a:b]) for a, b in ((14, 38), (40, 60))))
+         "gives 2 * 2 * {:.2f} = {:.2f}.", low, high, 13 * 0.02, depth_m, high - low)
+    says("LESSON", "{:.2f} > {:.2f} J/kg | 13 steps have taken {:.2f}. The bounce gives "
+         "2 * 2 * {:.2f} = {:.2f}.", low_2, high_2, 13 * 0.02, depth_2_m, high_2 - low_2)
+    turns_m = [max(x_m for x_m, *_ in found[a:b]) for a, b in ((14, 38), (40, 60))]
+    says("LESSON", "(The exact figure is {:.0f} cm.)", 100 * (2 - turns_m[0]))
+    assert turns_m[1] == pytest.approx(2)
     says("LESSON", "| first return | {:.2f} J/kg |", high - 13 * 0.02)
-    says("LESSON", "The first bounce gives {:.2f}, or {:.0f} cm", high - low, 200 * depth_m)
-    says("LESSON", "The second gives {:.2f}, or {:.0f} cm", high_2 - low_2, 200 * depth_2_m)
+    assert low_2 == pytest.approx(high - 26 * 0.02)
     energies = [energy(8, x_m, v_mps) for x_m, v_mps, _ in found]
     says("LESSON", "says least {:.2f} and most {:.2f}", min(energies), max(energies))
 
@@ -544,10 +545,11 @@ def test_the_answers_to_examples_3_and_21() -> None:
 
 def test_the_worksheet_is_the_film_fits_on_A4_and_tells_no_answer(capsys: Capture) -> None:
     sheet = (HERE / ".github/worksheet.txt").read_text(encoding="utf-8")
-    lines = sheet.splitlines()
-    says("LESSON", "It has {} lines of at most {} columns", len(lines), max(map(len, lines)))
+    picture, tasks = sheet.split("\n\nTasks\n")
+    lines = picture.splitlines()
+    says("LESSON", "with {} lines of at most {} columns", len(lines), max(map(len, lines)))
     assert len(lines) * 12 + 2 * 72 <= 842  # points: 10-point lines and margins on A4
-    assert max(map(len, lines)) * 6 + 2 * 72 <= 595
+    assert max(map(len, sheet.splitlines())) * 6 + 2 * 72 <= 595
     shown = film(capsys, "8", "--frames", "53", "m_to_px=30", "width_px=67").lines
     for number, (line, wanted) in enumerate(zip(lines[-53:], shown, strict=True), 1):
         assert set(line[:67].strip()) <= set("|.*0 ")
@@ -558,8 +560,15 @@ def test_the_worksheet_is_the_film_fits_on_A4_and_tells_no_answer(capsys: Captur
     for told in ("1.88", "Stopped", "press"):
         assert told not in sheet
     bounces = [number for number, line in enumerate(lines[-53:], 1) if "0" in line[:8]]
-    says("LESSON", "Lines {} and {}, where the `0` is", *bounces)
-    says("LESSON", "A column is {:.1f} cm, so {} columns are 0.5 m", 100 / 30, 15)
+    says("LESSON", "in the lines {} and {}, at {} and {} s", *bounces, *[n / 10 for n in bounces])
+    at_1_s, first_turn = lines[5 + 9], min(lines[5 + 24:5 + 28], key=lambda line: -line.find("*"))
+    says("LESSON", "At 1.0 s the `*` is {} columns to the left", 30 - at_1_s.find("*"))
+    says("LESSON", "First it turns {} columns before the dots", 60 - first_turn.find("*"))
+    assert "A column is 3.3 cm" in tasks
+    for depth_cm in (7, 19):  # tested as the depths of example 8
+        assert f" {depth_cm} cm beyond" in tasks
+        says("LESSON", "{0} + {0} = {1} cm", depth_cm, 2 * depth_cm)
+        says("LESSON", "{} - 26 = {:+}:", 2 * depth_cm, 2 * depth_cm - 26)
 
 
 def filmed(code: str, frames: int) -> list[str]:
