@@ -71,7 +71,7 @@ from examples import CHANGED, EXAMPLES, OWN_SCENE, Example, Keys, NoKeys, taken_
 #     x_m      the position of the car in m. A larger x is further to the right.
 #     v_mps    the velocity of the car in m/s. It is positive if the car moves to the right.
 #     a_mps2   the acceleration of the car in m/s^2. It is the same all the time.
-#     dt_s     the time step in s: how long a frame lasts.
+#     dt_s     the time step in s: how much time passes for the car in a frame.
 #
 # The velocity changes during the frame. Euler's methods ignore this change: they move the car at
 # one velocity through the whole frame. The method forward takes the velocity at the start of the
@@ -210,9 +210,8 @@ def rewind(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> 
     than the track is long, rewind may throw the car out, too.
     """
     # Run the film backwards: the car comes out of the wall. When is it at the wall, and how fast?
-    # In a film that runs backwards a velocity is reversed, and an acceleration is not. So they are
-    # -inward_mps and inward_mps2. Both count inwards. But arrival() counts towards the wall, and
-    # for a car in the wall this is outwards: both change their sign.
+    # In this film it moves outwards at the speed inward_mps. An acceleration does not turn round in
+    # a film that runs backwards: it still points inwards. So outwards it is -inward_mps2.
     late_s, met_mps = arrival(depth_m, inward_mps, -inward_mps2)  # 0.030 s, 2.41 m/s
     # Run it forwards again, from the wall, after the bounce, for the same time.
     new_depth_m, new_inward_mps = exact(0.0, -CR * met_mps, inward_mps2, late_s)
@@ -373,26 +372,29 @@ def replay(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> Moved:
     h_m = up * (scene.to_track(x_m) - floor_m)
     rise_mps = up * v_mps
     remaining_s = dt_s  # the part of the frame that is still to come
-    last_wall = ""  # where the ball bounced last in this frame
+    has_bounced = False
+    since_floor_s = math.inf  # how long ago the ball bounced on the floor: not yet in this frame
     while rise_mps != 0 or g_mps2 != 0:  # otherwise nothing moves the ball
         wall, flight_s, speed_mps = next_bounce(h_m, rise_mps, g_mps2, room_m)
-        if scene.CR == 1 and wall == "floor" and last_wall == "floor":
-            # From now on all hops last equally long, flight_s each. Leave out the whole hops: what
-            # is left over is the remainder of the division remaining_s / flight_s.
-            remaining_s = remaining_s % flight_s
         if flight_s > remaining_s:
             break  # the frame ends before the ball gets there
         remaining_s -= flight_s
-        last_wall = wall
+        since_floor_s += flight_s
+        has_bounced = True
         if wall == "ceiling":
             h_m, rise_mps = room_m, -scene.CR * speed_mps
         else:
             h_m, rise_mps = 0.0, scene.CR * speed_mps
             if rise_mps * rise_mps / 2 <= g_mps2 * GRAZE_M:
                 return floor_m, 0.0, free_m  # at rest, as it cannot rise by GRAZE_M
+            if scene.CR == 1:
+                # The ball will be back on the floor after the same time, again and again. Leave out
+                # these times as a whole: what is left over is the remainder of a division.
+                remaining_s = remaining_s % since_floor_s
+            since_floor_s = 0.0
     h_m, rise_mps = exact(h_m, rise_mps, -g_mps2, remaining_s)
     x_m = scene.to_track(floor_m + up * h_m)  # round-off must not leave it beyond a wall
-    if last_wall == "":
+    if not has_bounced:
         return x_m, up * rise_mps, None
     return x_m, up * rise_mps, free_m
 
@@ -591,7 +593,7 @@ class Car:
         # too. A deque with a maxlen forgets its oldest item when a new one comes.
         self.rest_frames = max(10, round(scene.fps_target / 3))
         self.last: deque[tuple[float, float]] = deque(maxlen=self.rest_frames)  # t_s and x_m
-        self.rest_began_s: float | None = None  # since when it lies still, if it does
+        self.rest_began_s: float | None = None  # since when it is at rest, if it is
 
     def move(self, dt_s: float) -> None:
         """Make a frame of dt_s. The true car must have made it already."""
@@ -746,7 +748,7 @@ def tell_cars(cars: dict[str, Car]) -> None:
         for energy in (car.first_energy, car.least_energy, car.most_energy, car.energy):
             row += number_text(energy).rjust(11)
         print(row)
-    print("Energy 0 is a car at rest: on its floor, if it is accelerated. Below 0 is lower.")
+    print("Energy 0 is rest on the wall to which a points. Below 0 the car is beyond it.")
     print("The hops in frames, each from one bounce to the next, and the end:")
     for mark in marks:
         car = cars[mark]
@@ -1003,8 +1005,8 @@ def verdict(scene: Scene, fps: int, cut: int) -> str:
     # G, L and P are for a car that is over a drawn pixel off.
     if max(errors_m) <= 1 / scene.m_to_px:
         return "-"
-    # G or L: how much more energy than the true car had it? 100 % is v^2/2 at the start, and what
-    # the acceleration could add on the whole length of the track.
+    # G or L: how much more energy did it have than the true car? 100 % is v^2/2 at the start, and
+    # what the acceleration could add on the whole length of the track.
     all_energy = scene.v_mps**2 / 2 + abs(scene.a_mps2) * track_m
     energies = [scene.energy(sample.x_m, sample.v_mps) for sample in samples[late:]]
     true_energies = [scene.energy(sample.true_m, sample.true_mps) for sample in samples[late:]]
@@ -1052,7 +1054,8 @@ def stability(scene: Scene, title: str) -> None:
 #
 # A car hops on the wall to which it is accelerated, as a ball hops on a floor. Call this wall the
 # floor. Up is away from the floor, and g is the size of a. All frames last dt. The car does not
-# meet the other wall.
+# meet the other wall. (In the drawing below up is to the right, and each line has the number of its
+# frame.)
 #
 # A hop lasts from a frame in which a collision is found to the next such frame. It begins upwards,
 # at the speed u, and ends downwards, at the speed w. Here is a hop with exact + surface. CR is 1, g
@@ -1089,12 +1092,12 @@ def stability(scene: Scene, title: str) -> None:
 #         drop = (w - u)/2 * hop * dt         here 6 cm = 0.1 m/s * 6 * 0.1 s
 # Put in k * g * dt for w - u:
 #         drop = k * hop * g * dt^2/2         here 6 cm = 1/2 * 12 cm
-# So of two hops of one length, the hop with the larger drop has the larger k. In the hop itself
-# there is no error: a car that has fallen lower is faster. The error comes after it: surface lifts
-# the car by the drop, and does not slow it. Forward makes an error in each frame of the hop, too.
-# It moves the car at the velocity from the start of the frame, so the frame ends g * dt^2/2 higher
-# than with exact. With backward it ends as much lower. Let s be 1 for forward, 0 for exact and -1
-# for backward. Then
+# So of two hops that are equally long, the one with the larger drop has the larger k. In the hop
+# itself there is no error: a car that has fallen lower is faster. The error comes after it: surface
+# lifts the car by the drop, and does not slow it. Forward makes an error in each frame of the hop,
+# too. It moves the car at the velocity from the start of the frame, so the frame ends g * dt^2/2
+# higher than with exact. With backward it ends as much lower. Let s be 1 for forward, 0 for exact
+# and -1 for backward. Then
 #         drop = (k - s) * hop * g * dt^2/2
 #
 # How large is k? Take exact + surface. The hop begins on the floor. It ends with the first frame
@@ -1103,11 +1106,11 @@ def stability(scene: Scene, title: str) -> None:
 #         for n = hop it is below 0:          u is less than hop * g * dt/2
 #         for n = hop - 1 it is not:          u is at least (hop - 1) * g * dt/2
 #         by (2):                             u is (hop - k) * g * dt/2
-# So k is more than 0 and at most 1. With forward, n - 1 stands in the brackets in place of n, and k
-# is more than 1 and at most 2. With backward n + 1 stands there, and k is more than -1 and at most
-# 0. With rebound a hop begins above the floor, so its drop may be larger, and k up to 1 larger.
-# (This proof is longer. The tests check it.) In every hop of two frames or more, at any CR, and but
-# for round-off, k is more than the first number and at most the second:
+# So k is more than 0 and at most 1. With forward, (u - (n - 1) * g * dt/2) stands there, and k is
+# more than 1 and at most 2. With backward it is (u - (n + 1) * g * dt/2), and k is more than -1 and
+# at most 0. With rebound a hop begins above the floor, so its drop may be larger, and k up to 1
+# larger. (This proof is longer. The tests check it.) In every hop of two frames or more, at any CR,
+# but for round-off, k is more than the first number and at most the second:
 #
 #                  surface     rebound
 #     forward      1 to 2      1 to 3
@@ -1119,13 +1122,13 @@ def stability(scene: Scene, title: str) -> None:
 #
 # What does k do?
 #     k > 0   The car gets too much energy. At CR = 1 each hop is longer than the hop before, by
-#             k + k' frames (G in the map). At CR < 1 the hops should die out, but many do not. Put
-#             next = hop and k' = k into the law:
+#             k + k' frames (G in the map). At CR < 1 the hops should die out, but many do not.
+#             When does a hop repeat? Put next = hop and k' = k into the law:
 #                 hop = CR * (hop + k) + k,  so  hop * (1 - CR) = k * (1 + CR)
-#             So a hop of k * (1 + CR)/(1 - CR) frames repeats for ever (H), if this is a whole
-#             number and at least 2. (In hops of one frame the car meets the floor in every frame:
-#             it rests.) With rebound the hops may also end in a cycle, as 7 7 8 9 9 8 with exact +
-#             rebound at CR = 0.8.
+#             So a hop of k * (1 + CR)/(1 - CR) frames is followed by the same hop, for ever. (If
+#             it is over 1 mm high, the map shows H. In hops of one frame the car meets the floor
+#             in every frame: it rests.) With rebound the hops may also end in a cycle, as 7 7 8 9
+#             9 8 with exact + rebound at CR = 0.8.
 #     k < 0   The car gets too little energy. At CR = 1 it should hop for ever, but its hops get
 #             shorter, and it comes to rest (L). At CR < 1 the next hop is shorter than CR * hop.
 #     k = 0   The car gets the right energy.
@@ -1167,11 +1170,10 @@ def say_before(scene: Scene, wanted: Wanted) -> None:
     if wanted.number in EXAMPLES:
         title = f"Example {wanted.number}: {EXAMPLES[wanted.number].title}"
     say(", ".join([title, *wanted.typed.values()]))
-    text = scene_text(scene)
+    texts = [scene_text(scene)]
     if scene.show_methods:
-        for letter, method in METHODS.items():
-            text += f"; {letter}: {method_text(*method)}"
-    say(text)
+        texts += [f"{letter}: {method_text(*method)}" for letter, method in METHODS.items()]
+    say("; ".join(texts))
 
 def film(scene: Scene, wanted: Wanted) -> None:
     """Say what to look for, leave time to guess, show the film, and say what was to be seen."""
@@ -1188,8 +1190,7 @@ def film(scene: Scene, wanted: Wanted) -> None:
     if view.width_px < scene.width_px:
         say(f"The picture is drawn {view.width_px} columns wide, to fit into the terminal.")
     cars = cars_of(scene, unchanged)
-    # With --fast nothing is taken, so nothing needs to be given back.
-    taking = nullcontext(NoKeys()) if wanted.is_fast else taken_keys()
+    taking = nullcontext(NoKeys()) if wanted.is_fast else taken_keys()  # NoKeys takes nothing
     with taking as keys:
         question = example.look_for
         if not example.seen and not scene.show_exact_mark:
@@ -1212,9 +1213,8 @@ def say_after(car: Car, example: Example, wanted: Wanted) -> None:
         say(example.seen)
     else:
         say(advice(car))
-        on_track = [word for name, word in wanted.typed.items() if name in OF_THE_TRACK]
-        map_words = " ".join(["stability", str(wanted.number), *on_track])
-        say(f"Which methods are right here? {PYTHON} airtrack.py {map_words}")
+        words = " ".join([word for name, word in wanted.typed.items() if name in OF_THE_TRACK])
+        say(f"Which methods are right here? {PYTHON} airtrack.py stability {wanted.number} {words}")
     following = wanted.number + 1 if wanted.number + 1 in EXAMPLES else "chart"
     say(f"Next: {PYTHON} airtrack.py {following}")
 
@@ -1227,9 +1227,8 @@ def advice(car: Car) -> str:
     if car.most_off_m <= 1 / scene.m_to_px:
         return f"The * stayed within {pixel} of its true car. So its method is right for this film."
     text = f"The * was up to {off_text(car)} from its true car, which is over {pixel}."
-    cures = ["conserve", "rewind", "replay"]  # each is right more often than the one before
-    if not scene.starts_on_track():
-        cures = ["conserve"]
+    # Each of these is right more often than the one before.
+    cures = ["conserve", "rewind", "replay"] if scene.starts_on_track() else ["conserve"]
     if scene.motion == "exact" and scene.correction in cures:
         cures = cures[cures.index(scene.correction) + 1:]
     if not cures:
@@ -1283,13 +1282,15 @@ def check(scene: Scene) -> None:
 FRAMES = 50_000  # a film that nobody stops ends then
 COMMANDS = {"chart": chart, "stability": stability}
 # The commands use these settings alone. They choose methods and frame rates themselves.
-OF_THE_TRACK = ["x_m", "v_mps", "a_mps2", "left_edge_m", "right_edge_m", "CR", "m_to_px"]
+OF_THE_TRACK = ["x_m", "v_mps", "a_mps2", "left_edge_m", "right_edge_m", "CR", "m_to_px",
+                "width_px"]
 
 # What people type because other programs have it, and what it is called here:
-OTHER_NAMES = {"fps": "fps_target", "dt": "fps_target", "g": "a_mps2", "gravity": "a_mps2",
-               "a": "a_mps2", "x": "x_m", "h": "x_m", "height": "x_m", "v": "v_mps",
-               "speed": "v_mps", "zoom": "m_to_px", "e": "CR", "map": "stability",
-               "fast": "--fast", "frames": "--frames"}
+OTHER_NAMES = {"fps": "fps_target", "framerate": "fps_target", "dt": "fps_target", "g": "a_mps2",
+               "gravity": "a_mps2", "a": "a_mps2", "x": "x_m", "position": "x_m", "h": "x_m",
+               "height": "x_m", "v": "v_mps", "speed": "v_mps", "velocity": "v_mps",
+               "left": "left_edge_m", "right": "right_edge_m", "restitution": "CR", "e": "CR",
+               "zoom": "m_to_px", "map": "stability", "fast": "--fast", "frames": "--frames"}
 
 def converted(name: str, text: str) -> Any:
     """The value that a text stands for or, if the setting has no such value, the text itself."""
@@ -1317,13 +1318,13 @@ def unknown(word: str, following: list[str]) -> str:
     name, _, text = word.replace(":", "=").partition("=")
     if name in SETTINGS:  # CR 0.7, CR = 0.7 or CR:0.7
         values = [each for each in [text, *following] if is_allowed(name, converted(name, each))]
-        value = values[0] if values else "VALUE"
-        return f"unknown word {word}: write {name}={value}, without spaces"
+        values.append("VALUE")  # if there is no value
+        return f"unknown word {word}: write {name}={values[0]}, without spaces"
     hints = OTHER_NAMES | {each.lower(): each for each in [*SETTINGS, *COMMANDS]}
     hints |= {each: f"motion={each}" for each in MOTIONS}
     hints |= {each: f"correction={each}" for each in ALL_CORRECTIONS}
     cutoff = 1.0 if len(name) == 1 else 0.6  # a single letter must be in the table itself
-    near = difflib.get_close_matches(name.lower(), hints, n=1, cutoff=cutoff)
+    near = difflib.get_close_matches(name.lower().lstrip("-"), hints, n=1, cutoff=cutoff)
     if not near:
         return f"unknown word {word}: -h lists all that there are"
     hint = hints[near[0]]
@@ -1360,7 +1361,9 @@ def make_parser() -> argparse.ArgumentParser:
 
 def read_command_line(parser: argparse.ArgumentParser, argv: list[str]) -> Wanted:
     """What the words and options of the command line ask for. Raises ValueError."""
-    options = parser.parse_intermixed_args(argv)
+    options, unknown_options = parser.parse_known_intermixed_args(argv)
+    if unknown_options:
+        raise ValueError(unknown(unknown_options[0], []))
     commands, numbers, changes, typed = [], [], {}, {}
     for place, word in enumerate(options.words):
         name, _, text = word.partition("=")
@@ -1398,7 +1401,7 @@ def scene_wanted(wanted: Wanted) -> Scene:
     if wanted.command not in COMMANDS:
         return scene_of(settings)
     settings = {name: value for name, value in settings.items() if name in OF_THE_TRACK}
-    return truth_of(scene_of(settings))  # on the track, wherever the car starts
+    return truth_of(scene_of(settings))  # the start is on the track, wherever it was
 
 def obey(argv: list[str]) -> None:
     """Do what the command line asks for. Wrong input ends the program here, with status 2."""

@@ -567,7 +567,8 @@ def print_for_now(text: str) -> None:
 
 # ==== Taking and giving back ====================================================================
 
-KILLING_SIGNALS = ["SIGTERM", "SIGHUP", "SIGQUIT", "SIGALRM", "SIGUSR1", "SIGUSR2", "SIGXCPU"]
+KILLING_SIGNALS = ["SIGTERM", "SIGHUP", "SIGQUIT", "SIGALRM", "SIGUSR1", "SIGUSR2", "SIGVTALRM",
+                   "SIGPROF", "SIGXCPU", "SIGIO", "SIGPWR"]
 ENDING_SIGNALS = ["SIGINT", *KILLING_SIGNALS]
 
 # The signals that were ignored when the program began stay ignored: nohup relies on this.

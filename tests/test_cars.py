@@ -312,7 +312,7 @@ def test_more_than_a_drawn_pixel_off_is_wrong_and_less_is_right(play: Play) -> N
 @pytest.mark.parametrize(("words", "command"), [
     ("8 fps_target=60", "stability 8"), ("-7 v_mps=1", "stability -7 v_mps=1"),
     ("1 CR=.90 motion=exact jitter=0.1 left_edge_m=0 x_m=1e0 m_to_px=20 width_px=90",
-     "stability 1 CR=.90 left_edge_m=0 x_m=1e0 m_to_px=20")])
+     "stability 1 CR=.90 left_edge_m=0 x_m=1e0 m_to_px=20 width_px=90")])
 def test_the_map_is_advised_with_the_changes_that_it_takes_as_they_were_typed(
         words: str, command: str, play: Play) -> None:
     told = last_words(play(f"{words} --frames=3"))

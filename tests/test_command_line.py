@@ -85,7 +85,7 @@ def test_h_prints_usage_examples_and_every_setting_with_default_range_and_meanin
         assert row.endswith(f"{field.metadata['meaning']} ({allowed})")
 
 
-OF_THE_TRACK = "x_m, v_mps, a_mps2, left_edge_m, right_edge_m, CR, m_to_px"
+OF_THE_TRACK = "x_m, v_mps, a_mps2, left_edge_m, right_edge_m, CR, m_to_px, width_px"
 CHOOSES = f"it chooses methods and frame rates itself, and takes an EXAMPLE and {OF_THE_TRACK}"
 WRONG = {  # a command line that is refused: what is said of it
     "x_m=5000": "x_m must be a number from -1000 to 1000, not 5000",
@@ -107,7 +107,9 @@ WRONG = {  # a command line that is refused: what is said of it
     "stability 5 CR=0.5 motion=exact": f"stability takes no motion: {CHOOSES}",
     "--frames 0": "--frames N must be a whole number from 1 up, not 0",
     "--frames x": "argument --frames: invalid int value: 'x'",
-    "--fats": "unrecognized arguments: --fats",
+    "--fats": "unknown word --fats: did you mean --fast?",
+    "3 --fps=9": "unknown word --fps=9: did you mean fps_target=VALUE (frames a second; dt = "
+                 "1/fps_target)?",
     "CR 0.7": "unknown word CR: write CR=0.7, without spaces",
     "10 CR = 0.7": "unknown word CR: write CR=0.7, without spaces",
     "CR:0.7": "unknown word CR:0.7: write CR=0.7, without spaces",
