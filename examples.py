@@ -157,9 +157,8 @@ EXAMPLES = {
         "The * does. It turned at 1.91 m, in frame 13, and the o at 1.79 m. Forward Euler moves "
         "the car through a whole frame at the velocity that it had when the frame began. That is "
         "too fast on the way out and too slow on the way back. So in each frame the * gets 1 cm "
-        "further to the right of the o. Its energy grows, too: each frame adds 0.02 m^2/s^2 to "
-        "v^2/2 + 2 x, the energy per kilogram. With motion=exact the * stays on the o until it "
-        "meets the wall, in frame 25."),
+        "further to the right of the o. Its energy grows, too: by 0.02 J/kg in each frame. With "
+        "motion=exact the * stays on the o until it meets the wall, in frame 25."),
     14: Example("Four metres a frame", QUICK,
         "The car moves 4 m in a frame, but the track is only 1.95 m long. Does the car stay "
         "between the walls? (< and > mean: out of the picture.) End the film with x.",

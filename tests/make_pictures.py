@@ -106,12 +106,14 @@ Tasks
 
 4. A column is 3.3 cm, so the picture is not exact. Exactly, the first 0
    is 7 cm beyond the wall, and the second 0 is 19 cm beyond it. The
-   program puts the car as far in front of the wall. How many cm higher
-   does it lift the car: in the first bounce, and in the second?
+   program puts the car equally far in front of the wall. How many cm up
+   the track is that: in the first bounce, and in the second?
 
-5. In each step the program takes 1 cm from the way of the car. From
-   one turn to the next there are 26 steps. How far does the car come
-   after the first bounce, and after the second? Use your answer to 4.
+5. From one turn to the next there are 26 steps, and each takes 1 cm from
+   the way of the car. Compare with your answer to 4. Is the next turn
+   lower or higher on the track than the turn before, and by how many cm?
+   After the first bounce: ______ - 26 = ______
+   After the second bounce: ______ - 26 = ______
 """
 
 
@@ -126,7 +128,7 @@ def worksheet() -> str:
     lines = [
         "Example 8: Elastic, large steps                    Name:",
         "No speed is lost in a bounce. How near to its start, the dots at 2 m,",
-        "does the car * come back? Walls: |. A move ended in the wall: 0.",
+        "does the car * come back? Walls: |. A step ended beyond a wall: 0.",
         "A column is 3.3 cm, a line is 0.1 s. a = -2 m/s^2, walls at 0.25, 2.2 m.",
         "".join(axis)]
     x_m, v_mps = scene.x_m, scene.v_mps

@@ -193,7 +193,7 @@ def test_13() -> None:
     met = collisions(states(13, 26, motion="exact"))[0]
     assert apart_m(beside_the_truth(13, met - 1, motion="exact")) < 1e-12
     tells(13, max(xs), xs.index(max(xs)) + 1, max(truth), 100 * ahead_m[0], 2.0**2 * 0.1**2 / 2,
-          2, 2, met)
+          met)
 
 
 def test_14_and_15(capsys: Capture) -> None:
