@@ -1219,7 +1219,7 @@ def say_after(car: Car, example: Example, wanted: Wanted) -> None:
     say(f"Next: {PYTHON} airtrack.py {following}")
 
 def advice(car: Car) -> str:
-    """Is the car's method right for its scene? If not, what may be tried?"""
+    """Is the car's method right for its scene? If not, what may be tried, one after the other?"""
     scene = car.scene
     pixel = f"a drawn pixel ({1 / scene.m_to_px:.2g} m)"
     if not car.collisions:
@@ -1227,7 +1227,6 @@ def advice(car: Car) -> str:
     if car.most_off_m <= 1 / scene.m_to_px:
         return f"The * stayed within {pixel} of its true car. So its method is right for this film."
     text = f"The * was up to {off_text(car)} from its true car, which is over {pixel}."
-    # Each of these is right more often than the one before.
     cures = ["conserve", "rewind", "replay"] if scene.starts_on_track() else ["conserve"]
     if scene.motion == "exact" and scene.correction in cures:
         cures = cures[cures.index(scene.correction) + 1:]
@@ -1286,10 +1285,9 @@ OF_THE_TRACK = ["x_m", "v_mps", "a_mps2", "left_edge_m", "right_edge_m", "CR", "
                 "width_px"]
 
 # What people type because other programs have it, and what it is called here:
-OTHER_NAMES = {"fps": "fps_target", "framerate": "fps_target", "dt": "fps_target", "g": "a_mps2",
-               "gravity": "a_mps2", "a": "a_mps2", "x": "x_m", "position": "x_m", "h": "x_m",
-               "height": "x_m", "v": "v_mps", "speed": "v_mps", "velocity": "v_mps",
-               "left": "left_edge_m", "right": "right_edge_m", "restitution": "CR", "e": "CR",
+OTHER_NAMES = {"fps": "fps_target", "dt": "fps_target", "g": "a_mps2", "gravity": "a_mps2",
+               "a": "a_mps2", "x": "x_m", "position": "x_m", "h": "x_m", "height": "x_m",
+               "v": "v_mps", "speed": "v_mps", "velocity": "v_mps", "e": "CR", "restitution": "CR",
                "zoom": "m_to_px", "map": "stability", "fast": "--fast", "frames": "--frames"}
 
 def converted(name: str, text: str) -> Any:
@@ -1444,6 +1442,8 @@ def main(argv: list[str] | None = None) -> int:
 if __name__ == "__main__":
     if sys.stdout is None:  # it was closed before the program began
         sys.stdout = open(os.devnull, "w")
+    if sys.stderr is None:
+        sys.stderr = open(os.devnull, "w")
     status = main()
     if status == 130 and os.name == "posix":
         # Die by Ctrl-C's signal itself. Then a loop of the shell ends, too.
