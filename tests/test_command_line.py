@@ -30,7 +30,7 @@ TABLE: list[tuple[str, Any, str, list[Any], list[Any]]] = [
     ("left_edge_m", 0.25, "a number from -1000 to 1000", [-1000, 2.19], [BELOW, ABOVE]),
     ("right_edge_m", 2.2, "a number from -1000 to 1000", [0.26, 1000], [BELOW, ABOVE]),
     ("CR", 0.8, "a number from 0 to 1", [0, 1, 0.5], [-1e-9, 1.0000001]),
-    ("motion", "backward", "forward or backward or exact", ["exact"], ["Exact", 1]),
+    ("motion", "backward", " or ".join(MOTIONS), ["exact"], ["Exact", 1]),
     ("correction", "rebound", "none or surface or rebound or conserve or rewind or replay",
      ["none"], ["bounce", False]),
     ("fps_target", 30.0, "a number from 0.1 to 1000", [0.1, 1000], [0.0999, ABOVE]),
