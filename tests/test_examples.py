@@ -105,6 +105,12 @@ def test_3(capsys: Capture) -> None:
         assert 9 * 30 < [line[0] for line in lines].index("<") < 10 * 30
 
 
+def test_the_first_examples_show_no_mark_that_nobody_has_explained(capsys: Capture) -> None:
+    for number in range(5):
+        lines = film(capsys, str(number), "--frames=300").lines
+        assert set("".join(line.partition("x =")[0] for line in lines)) <= set(" *|<>")
+
+
 def test_4(capsys: Capture) -> None:
     tells(4, scene_of(4).fps_target, 90, frames_to_rest(capsys, "4"))
     hops = hops_of(4, 1880)

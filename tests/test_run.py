@@ -150,6 +150,22 @@ def test_s_goes_one_frame_further_and_pauses(play: Play) -> None:
     assert last - frames[-1] in (5, 6)
 
 
+def test_after_quick_steps_p_goes_on_at_once(clock: Clock, play: Play) -> None:
+    play("10 fps_target=1", t0_5="\r", t2_7="s", t2_8="s", t2_9="s", t3="s", t5="p", t9="x")
+    assert clock.lengths_s()[-3:] == pytest.approx([1, 1, 1], abs=0.1)
+
+
+@pytest.mark.usefixtures("at_a_terminal")
+@pytest.mark.parametrize(("keys", "shows_one_more"), [
+    ({"t4_05": "sp", "t6_05": "p"}, False),  # what s asked for is forgotten with p
+    ({"t2_05": "p", "t4_05": "p", "t6_05": "s"}, True)])
+def test_steps_are_counted_anew_after_p(
+        keys: dict[str, str], shows_one_more: bool, clock: Clock, play: Play) -> None:
+    play("10", t0_5="\r", **keys, t30="x")
+    first_s, *_, last_s = clock.frames_s
+    assert (last_s - first_s > 5.5) is shows_one_more  # the last key comes after 5.55 s
+
+
 @pytest.mark.usefixtures("at_a_terminal")
 def test_before_the_film_p_holds_the_text_s_shows_frame_1_and_x_quits(
         clock: Clock, play: Play) -> None:
@@ -249,6 +265,13 @@ def test_a_narrow_terminal_shrinks_picture_and_zoom_together(
     zoom = 55 * (width_px - 1) / 134  # what is in the last column stays in the last one
     walls = [column for column, mark in enumerate(line) if mark == "|"]
     assert walls == [round(at_m * zoom) for at_m in (0.25, 2.2)]
+
+
+def test_in_a_terminal_too_narrow_for_the_details_the_picture_has_ten_columns(
+        capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", "40")
+    monkeypatch.setattr("sys.stdout.isatty", lambda: True)
+    assert film(capsys, "10", "d", "--frames=1").lines[0].index("x =") == 10
 
 
 @pytest.mark.parametrize(("words", "columns"), [
