@@ -421,6 +421,11 @@ def test_the_bounds_of_k_are_those_of_the_listing() -> None:
 
 
 def test_where_hops_end_from_random_starts() -> None:
+    says("README", "If k is above 0, the ball gets too much energy.")
+    says("README", "k (1 + CR)/(1 - CR) frames: at CR 0.8 that is {:.0f} k. If k is below 0, it "
+         "gets too little", 1.8 / 0.2)
+    says("README", "{} random starts at CR 0.8 (up to {} m/s, from {} to {} m, g {}, {} FPS) ended",
+         300, 1, 0.5, 2, 10, 60)
     for name, motion, correction in (
             ("{} to {} frames with forward + surface", "forward", "surface"),
             ("{} to {} with forward + rebound", "forward", "rebound"),
@@ -601,6 +606,19 @@ def test_the_engine_is_a_page_and_example_0_and_a_spring_swings_on(capsys: Captu
     for last in (lines[3000:4000], lines[5000:]):
         xs = [details(line)[0] for line in last]
         assert (min(xs), max(xs)) == (0.5, 17.5)
+
+
+def test_the_page_s_motion_is_exact() -> None:
+    names: dict[str, Any] = {"State": tuple}
+    exec(listing("def mean("), names)
+    for state in ((1.0, 2.0, -3.0, 0.1), (0.3, -4.0, 9.81, 1.5)):
+        assert names["mean"](*state) == pytest.approx(MOTIONS["exact"](*state))
+
+
+def test_the_script_s_order_is_that_of_its_table_and_its_parts() -> None:
+    order = re.findall(r"\d+", re.findall(r"its own order: ([\d, ]+)\.", PLAIN["LESSON"])[0])
+    assert re.findall(r"(?m)^\| \d+ to \d+ \| `python airtrack\.py (\d+)` \|", LESSON) == order
+    assert re.findall(r"(?m)^### Example (\d+):", LESSON) == order
 
 
 def test_the_exercises(capsys: Capture) -> None:
