@@ -171,6 +171,17 @@ def test_the_drawn_hop_and_the_numbers_of_its_three_steps_are_the_program_s() ->
         assert sentence in WORDS
 
 
+def test_the_proof_s_two_lines_hold_in_every_hop_of_two_frames_or_more() -> None:
+    assert "for n = hop it is below 0: u is less than hop * g * dt/2" in WORDS
+    assert "for n = hop - 1 it is not: u is at least (hop - 1) * g * dt/2" in WORDS
+    assert "With forward, (u - (n - 1) * g * dt/2) stands there" in WORDS
+    assert "With backward it is (u - (n + 1) * g * dt/2)" in WORDS
+    for motion, late in (("exact", 0), ("forward", 1), ("backward", -1)):
+        for hops in random_hops(motion, "surface", 0.9, 20, 20):
+            for hop in [hop for hop in hops if hop.frames > 1]:
+                assert hop.frames - late - 1 - 1e-9 <= 2 * hop.u < hop.frames - late
+
+
 def test_examples_19_and_20_have_the_k_that_is_told() -> None:
     nineteen = Scene(**EXAMPLES[19].settings)
     g_dt = -nineteen.a_mps2 / nineteen.fps_target

@@ -535,7 +535,8 @@ def test_the_figures_of_example_10() -> None:
     says("LESSON", "the bounce was {:.3f} s after line 13", fall_s - 1.3)
     says("LESSON", "on for the other {:.3f} s", 1.4 - fall_s)
     found = states(10, 14)
-    says("LESSON", "from {:.2f} m to the `0` at {:.2f} m, through", found[12][0], found[13][2])
+    says("LESSON", "from {:.2f} m to the `0` at {:.2f} m, through the wall at {} m", found[12][0],
+         found[13][2], Scene().left_edge_m)
     assert collisions(found) == [14]
     says("LESSON", "may be up to {:.2f} cm short of the dot", 100 * 2 * 0.05**2 / 2)
 
@@ -576,7 +577,12 @@ def test_the_worksheet_is_the_film_fits_on_A4_and_tells_no_answer(capsys: Captur
     says("LESSON", "in the lines {} and {}, at {} and {} s", *bounces, *[n / 10 for n in bounces])
     at_1_s, first_turn = lines[5 + 9], min(lines[5 + 24:5 + 28], key=lambda line: -line.find("*"))
     says("LESSON", "At 1.0 s the `*` is {} columns to the left", 30 - at_1_s.find("*"))
-    says("LESSON", "First it turns {} columns before the dots", 60 - first_turn.find("*"))
+    columns = 60 - first_turn.find("*")
+    says("LESSON", "First it turns {} columns before the dots, about {:.0f} cm", columns,
+         100 * columns / 30)
+    times_s, = re.findall(r"Mark it at\s+t = (\S+), (\S+) and (\S+) s\.", tasks)
+    says("LESSON", "The true car is at {:.2f}, {:.2f} and {:.2f} m.",
+         *[2 - float(t_s)**2 for t_s in times_s])
     assert "A column is 3.3 cm" in tasks
     for depth_cm in (7, 19):  # tested as the depths of example 8
         assert f" {depth_cm} cm beyond" in tasks
@@ -618,7 +624,9 @@ def test_the_page_s_motion_is_exact() -> None:
 def test_the_script_s_order_is_that_of_its_table_and_its_parts() -> None:
     order = re.findall(r"\d+", re.findall(r"its own order: ([\d, ]+)\.", PLAIN["LESSON"])[0])
     assert re.findall(r"(?m)^\| \d+ to \d+ \| `python airtrack\.py (\d+)` \|", LESSON) == order
-    assert re.findall(r"(?m)^### Example (\d+):", LESSON) == order
+    parts = re.findall(r"(?m)^### Example (\d+): .* \((\d+) minutes\)$", LESSON)
+    assert [number for number, _ in parts] == order
+    says("LESSON", "## The script: {} minutes", sum(int(minutes) for _, minutes in parts))
 
 
 def test_the_exercises(capsys: Capture) -> None:
