@@ -240,6 +240,7 @@ def test_16_17_and_21(capsys: Capture) -> None:
 def test_18() -> None:
     found = beside_the_truth(18, 5)
     fps = scene_of(18).fps_target
+    assert EXAMPLES[18].title.endswith(f" at {fps:g} FPS")
     missed = math.ceil(5 / 8 * fps)  # it turns after 5/8 s
     assert collisions(states(18, 5)) == []
     assert apart_m(found[:missed - 1]) < 1e-12

@@ -176,6 +176,7 @@ def test_the_proof_s_two_lines_hold_in_every_hop_of_two_frames_or_more() -> None
     assert "for n = hop - 1 it is not: u is at least (hop - 1) * g * dt/2" in WORDS
     assert "With forward, (u - (n - 1) * g * dt/2) stands there" in WORDS
     assert "With backward it is (u - (n + 1) * g * dt/2)" in WORDS
+    assert "Let s be 1 for forward, 0 for exact and -1 for backward" in WORDS  # as S has them
     for motion, late in (("exact", 0), ("forward", 1), ("backward", -1)):
         for hops in random_hops(motion, "surface", 0.9, 20, 20):
             for hop in [hop for hop in hops if hop.frames > 1]:
