@@ -98,22 +98,33 @@ Tasks
 
 1. Mark the two bounces. At what time are they?
 
-2. Until its first bounce the true car is at x = 2 - t^2. Mark it at
-   t = 0.5, 1.0 and 1.2 s. How many columns is the * from it at 1.0 s?
+   first bounce: ______ s          second bounce: ______ s
 
-3. How many columns before the dots does the car turn: the first time,
-   and the second time?
+2. Mark the two places where the car turns at the right. How many
+   columns before the dots (2 m) are they?
 
-4. A column is 3.3 cm, so the picture is not exact. Exactly, the first 0
-   is 7 cm beyond the wall, and the second 0 is 19 cm beyond it. The
-   program puts the car equally far in front of the wall. How many cm up
-   the track is that: in the first bounce, and in the second?
+   first turn: ______ columns      second turn: ______ columns
 
-5. From one turn to the next there are 26 steps, and each takes 1 cm from
-   the way of the car. Compare with your answer to 4. Is the next turn
-   lower or higher on the track than the turn before, and by how many cm?
-   After the first bounce: ______ - 26 = ______
-   After the second bounce: ______ - 26 = ______
+3. The first 0 is 7 cm beyond the wall, and the second 0 is 19 cm beyond
+   it. (The picture shows this only in columns of 3.3 cm.) The program
+   puts the car equally far in front of the wall. So it lifts the car up
+   the track. By how much?
+
+   first bounce: 7 + ______ = ______ cm
+   second bounce: 19 + ______ = ______ cm
+
+4. From the start to the first turn there are 26 steps, and 26 more to
+   the second turn. Each step ends 1 cm too low on the track. So how
+   many cm higher (+) or lower (-) is each turn?
+
+   first turn, from the start: ______ - 26 = ______ cm
+   second turn, from the first turn: ______ - 26 = ______ cm
+
+   Does this agree with your answer to task 2?
+
+5. For quick pairs. Until its first bounce the true car is at
+   x = 2 - t^2 (x in m, t in s). Mark it at t = 0.5, 1.0 and 1.2 s. How
+   many columns is the * from it at 1.0 s?
 """
 
 

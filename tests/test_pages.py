@@ -1,4 +1,4 @@
-"""The two pages: commands run, snippets work as printed, figures are worked out."""
+"""The pages: commands run, snippets work as printed, figures are worked out."""
 
 import importlib.metadata
 import io
@@ -34,10 +34,12 @@ from films import (
 Capture = pytest.CaptureFixture[str]
 README = (HERE / "README.md").read_text(encoding="utf-8")
 LESSON = (HERE / ".github/lesson.md").read_text(encoding="utf-8")
-LISTINGS: list[str] = re.findall(r"^```\w*\n(.*?)^```$", README + LESSON, re.MULTILINE | re.DOTALL)
+EXERCISES = (HERE / ".github/exercises.md").read_text(encoding="utf-8")
+PAGES = README + LESSON + EXERCISES
+LISTINGS: list[str] = re.findall(r"^```\w*\n(.*?)^```$", PAGES, re.MULTILINE | re.DOTALL)
 TYPESET = str.maketrans({"\u2212": "-", "\u00b7": "*", "\u2192": ">"})
 PLAIN = {page: " ".join(text.translate(TYPESET).split())
-         for page, text in (("README", README), ("LESSON", LESSON))}
+         for page, text in (("README", README), ("LESSON", LESSON), ("EXERCISES", EXERCISES))}
 
 
 def says(page: str, sentence: str, *values: object) -> None:
@@ -54,7 +56,7 @@ def listing(part: str) -> str:
 # Commands.
 
 COMMANDS = sorted(set(re.findall(
-    r"(?:python3?|py|uv run) airtrack\.py ?([^`\[\n]*?)(?=`| *\n|$)", README + LESSON)))
+    r"(?:python3?|py|uv run) airtrack\.py ?([^`\[\n]*?)(?=`| *\n|$)", PAGES)))
 
 
 @pytest.mark.parametrize("words", COMMANDS)
@@ -67,7 +69,7 @@ def test_every_command_runs(words: str, monkeypatch: pytest.MonkeyPatch) -> None
 
 
 def test_no_command_is_broken_over_two_lines() -> None:
-    for text in (README, LESSON):
+    for text in (README, LESSON, EXERCISES):
         for line in re.sub("(?ms)^```.*?^```", "", text).splitlines():
             assert line.count("`") % 2 == 0, line
 
@@ -85,7 +87,7 @@ def test_every_picture_is_there_and_no_other() -> None:
 
 
 def test_every_link_within_a_page_has_its_heading() -> None:
-    for page in (README, LESSON):
+    for page in (README, LESSON, EXERCISES):
         headings = {re.sub("[^a-z0-9 -]", "", line.lower()).strip().replace(" ", "-")
                     for line in re.findall(r"(?m)^#+ (.*)$", page)}
         assert set(re.findall(r"\]\(#([a-z0-9-]+)\)", page)) <= headings
@@ -526,7 +528,7 @@ def test_the_figures_of_example_10() -> None:
     says("LESSON", "from {:.2f} m to the `0` at {:.2f} m, through the wall at {} m", found[12][0],
          found[13][2], Scene().left_edge_m)
     assert collisions(found) == [14]
-    says("LESSON", "may be up to {:.2f} cm short of the dot", 100 * 2 * 0.05**2 / 2)
+    says("LESSON", "may be up to {:.2f} cm short of it", 100 * 2 * 0.05**2 / 2)
 
 
 def test_the_answers_to_examples_3_and_21() -> None:
@@ -571,7 +573,7 @@ def test_the_worksheet_is_the_film_fits_on_A4_and_tells_no_answer(capsys: Captur
     times_s, = re.findall(r"Mark it at\s+t = (\S+), (\S+) and (\S+) s\.", tasks)
     says("LESSON", "The true car is at {:.2f}, {:.2f} and {:.2f} m.",
          *[2 - float(t_s)**2 for t_s in times_s])
-    assert "A column is 3.3 cm" in tasks
+    assert "columns of 3.3 cm" in tasks
     for depth_cm in (7, 19):  # tested as the depths of example 8
         assert f" {depth_cm} cm beyond" in tasks
         says("LESSON", "{0} + {0} = {1} cm", depth_cm, 2 * depth_cm)
@@ -591,11 +593,11 @@ def filmed(code: str, frames: int) -> list[str]:
 
 def test_the_engine_is_a_page_and_example_0_and_a_spring_swings_on(capsys: Capture) -> None:
     code, old = listing("def settle("), "    v_mps += a_mps2 * dt_s\n"
-    says("LESSON", "The engine in {} lines", code.count("\n"))
+    says("EXERCISES", "The engine in {} lines", code.count("\n"))
     lines = filmed(code, 600)
     assert [line[:126] for line in lines] == [
         line[:126] for line in film(capsys, "--frames", "600").lines]
-    new, = re.findall(r"first line in `move` by `(v_mps .*)`", LESSON)
+    new, = re.findall(r"first line in `move` by `(v_mps .*)`", EXERCISES)
     lines = filmed(code.replace(old, f"    {new}\n"), 6000)
     for last in (lines[3000:4000], lines[5000:]):
         xs = [details(line)[0] for line in last]
@@ -619,16 +621,16 @@ def test_the_script_s_order_is_that_of_its_table_and_its_parts() -> None:
 
 def test_the_exercises(capsys: Capture) -> None:
     zeno_s = math.sqrt(1.75) * 1.9 / 0.1
-    says("LESSON", "T (1 + CR)/(1 - CR) = {:.1f} s", zeno_s)
+    says("EXERCISES", "T (1 + CR)/(1 - CR) = {:.1f} s", zeno_s)
     ending = film(capsys, "12", "CR=0.9", "correction=replay").ending
     rest_s, = re.findall(r"t = (.*) s: the car is at rest", ending)
     assert zeno_s <= float(rest_s) <= zeno_s + 0.125
-    says("LESSON", "more than 0.6 * (11 + 1) + 1 = {:.1f} and at most 0.6 * (11 + 2) + 2 = {:.1f}",
+    says("EXERCISES", "more than 0.6 * (11 + 1) + 1 = {:.1f} and at most 0.6 * (11 + 2) + 2 = {:.1f}",
          0.6 * 12 + 1, 0.6 * 13 + 2)
-    says("LESSON", "so 9. After 9 come more than {:.0f} and at most {:.1f}: so 8", 0.6 * 10 + 1,
+    says("EXERCISES", "so 9. After 9 come more than {:.0f} and at most {:.1f}: so 8", 0.6 * 10 + 1,
          0.6 * 11 + 2)
-    says("LESSON", "= {:.0f} k lines: more than 4, at most 8", 1.6 / 0.4)
-    told, = re.findall(r"The film has ([0-9 ]+) \u2026", PLAIN["LESSON"])
+    says("EXERCISES", "= {:.0f} k lines: more than 4, at most 8", 1.6 / 0.4)
+    told, = re.findall(r"The film has ([0-9 ]+) \u2026", PLAIN["EXERCISES"])
     lines = [int(word) for word in told.split()]
     scene = Scene(**EXAMPLES[20].settings | {
         "motion": "forward", "correction": "surface", "CR": 0.6})
@@ -636,8 +638,8 @@ def test_the_exercises(capsys: Capture) -> None:
 
 
 def test_a_real_ball() -> None:
-    says("LESSON", "within 0.63/(1 - 0.9) s = {:.1f} s", 0.63 / (1 - 0.9))
-    rests, hops_on = map(float, re.findall(r"fter one of (\S+) s it is", PLAIN["LESSON"]))
+    says("EXERCISES", "within 0.63/(1 - 0.9) s = {:.1f} s", 0.63 / (1 - 0.9))
+    rests, hops_on = map(float, re.findall(r"fter one of (\S+) s it is", PLAIN["EXERCISES"]))
     scene = Scene(x_m=0.25, v_mps=9.81 * 0.63 / 2, a_mps2=-9.81, CR=0.9, motion="exact",
                   correction="replay", right_edge_m=9)
     assert step(scene, scene.x_m, scene.v_mps, rests)[1] == 0
