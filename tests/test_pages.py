@@ -178,8 +178,8 @@ def test_the_cure_s_ball_lies_still_a_little_too_early() -> None:
             early.append(zeno - last)
         assert min(early) > -2  # never later than the frame after
         most.append(math.ceil(max(early)))
-    says("README", "in 200 random drops (20 to 144 FPS) at CR 0.8 up to {} frames, at CR 0.98 up "
-         "to {}", *most)
+    says("README", "in 200 random drops (20 to 144 FPS) up to {} frames before at CR 0.8, and up "
+         "to {} at CR 0.98", *most)
 
 
 def test_after_the_usual_move_the_ball_gets_lower_even_with_bounce() -> None:
@@ -305,14 +305,14 @@ def test_whichever_line_begins_the_good_order_comes_to_rest(order: str) -> None:
 
 
 @pytest.mark.parametrize("order", ["pgc", "gcp", "cpg"])
-def test_whichever_line_begins_the_other_order_hops_for_ever_80_mm_high(order: str) -> None:
-    highest = max(y for y, _ in game(order, 60, 0.8)[-100:])
-    assert highest == pytest.approx(0.080, abs=6e-3)
-    says("README", "in example 22 (CR 0.8, g 10, 60 FPS) {:.0f} mm high", 80)
-    says("README", "It hops for ever if CR is over 1/3")
-    for CR in (0.3334, 0.35, 0.5):
-        assert max(y for y, _ in game(order, 60, CR)[-100:]) > 1e-4
-    assert max(y for y, _ in game(order, 60, 0.05)[-100:]) <= 10 / 60**2
+def test_whichever_line_begins_the_other_order_hops_for_ever(order: str) -> None:
+    rng = random.Random(1)
+    for CR, lowest_mm, highest_mm in ((0.8, 62, 91), (0.3, 1.5, 2.5), (0.1, 0.4, 0.6)):
+        for _ in range(50):
+            found = game(order, 60, CR, y=rng.uniform(0.3, 3), v=rng.uniform(-2, 2))[-100:]
+            assert lowest_mm < 1000 * max(y for y, _ in found) < highest_mm
+    says("README", "at g = 10 and 60 FPS {} to {} mm high for CR 0.8, and {} mm high for CR 0.3",
+         62, 91, 2)
     grows = tops([(y, 0.0) for y, _ in game(order, 10, 1.0)])
     assert sorted(grows) == grows
 
