@@ -25,6 +25,15 @@ if sys.platform != "win32":
 
 HERE = Path(__file__).resolve().parent.parent
 COMMAND = [sys.executable, str(HERE / "airtrack.py")]
+LISTING = (HERE / "airtrack.py").read_text(encoding="utf-8")
+WORDS = " ".join(LISTING.replace("#", "").split())  # its comments as running text
+
+
+def value(formula: str, **names: float) -> float:
+    """A formula of the listing, worked out: a b is a product there, ^ a power, k' the next k."""
+    code = re.sub(r"(?<=[\w)]) (?=[\w(])", "*", formula)
+    return float(eval(code.replace("^", "**").replace("k'", "next_k"), dict(names)))
+
 
 # Nothing else of the environment in which the tests are started reaches a run: no display, no
 # colours turned off, no width. Where there is always a display, dummy keeps the window shut.

@@ -152,7 +152,8 @@ def told_of(mark: str, scene: Scene, frames: int) -> tuple[str, str]:
 
 @pytest.mark.parametrize(("number", "changes", "frames"), [
     (20, {"correction": "conserve"}, 300), (1, {"a_mps2": 1.5}, 500), (21, {}, 200),
-    (9, {"CR": 0.9}, 300), (3, {}, 200), (3, {"correction": "surface", "left_edge_m": -0.5}, 100),
+    (9, {"CR": 0.9}, 300), (3, {}, 200), (3, {}, 50),
+    (3, {"correction": "surface", "left_edge_m": -0.5}, 100),
     (8, {"fps_target": 20}, 300), (12, {"correction": "replay"}, 200), (14, {}, 7), (14, {}, 9),
     (13, {"show_methods": True, "CR": 0.5}, 150), (99, {"v_mps": 3, "CR": 0.5}, 300),
     (99, {"v_mps": -3, "CR": 0}, 300), (99, {"a_mps2": -4, "x_m": 2.3}, 99)])

@@ -30,12 +30,11 @@ from airtrack import (
     verdict,
 )
 from examples import EXAMPLES
-from films import HERE, collisions
+from films import LISTING, WORDS, collisions
 from films import states as frames_of
 from reference import states
 
 Capture = pytest.CaptureFixture[str]
-LISTING = (HERE / "airtrack.py").read_text(encoding="utf-8")
 CHART_RATES = (10, 30, 60, 120, 240, 480, 960, 1920, 3840)
 MAP_RATES = (1, 2, 5, 10, 30, 60, 120, 240, 1000)
 SPAN_S = 20
@@ -327,5 +326,20 @@ def test_the_table_of_methods_at_the_listing_s_head_is_what_chart_and_map_find()
 
 
 def test_example_10_has_about_as_many_bounces_as_the_listing_says() -> None:
-    assert "simulated time: about eight bounces in example 10" in LISTING
+    assert "simulated time: about eight bounces in example 10" in WORDS
     assert len(collisions(frames_of(10, 10 * SPAN_S, motion="exact", correction="replay"))) == 8
+
+
+def test_the_numbers_beside_the_code_of_chart_and_map_are_its_own() -> None:
+    late_s = SPAN_S * (1 - 3 / 4)
+    cuts = ", ".join([f"{3 * cut - 2}/27" for cut in (1, 2, 3)])  # tested in the first test
+    for sentence in (
+            f"Nine parts, 1/9 of a frame apart: {cuts}, ... {3 * 9 - 2}/27.",
+            f"twice the rate divides the error by {2**1}, at order 2 by {2**2}.",
+            f"here begin the samples of the last {late_s:.0f} of {SPAN_S} s",
+            f"was it beyond the same wall all through the last {late_s:.0f} s?",
+            f"did the true car rest all through the last {late_s:.0f} s, but not this one?",
+            "100 % is v^2/2 at the start",
+            f"one step() of {SPAN_S} s with motion=exact",
+            f"is where the car truly is after {SPAN_S} s."):
+        assert sentence in WORDS

@@ -16,9 +16,8 @@ import pytest
 
 from airtrack import MOTIONS, Scene, render_track, step
 from examples import EXAMPLES
-from films import HERE
+from films import LISTING, value
 
-LISTING = (HERE / "airtrack.py").read_text(encoding="utf-8")
 LAW = LISTING.partition("# ==== 9. ")[2].partition("# ==== 10. ")[0]
 WORDS = " ".join(LAW.replace("#", "").split())
 S = {"forward": 1, "exact": 0, "backward": -1}  # what a frame does to the energy, in g^2 dt^2/2
@@ -80,16 +79,28 @@ def random_hops(motion: str, correction: str, CR: float, cars: int,
     return [measured(random_scene(rng, motion, correction, CR), number) for _ in range(cars)]
 
 
+FORMULAS = (
+    "w - u = k * g * dt", "w + u = hop * g * dt", "next = CR * (hop + k) + k'",
+    "w = (hop + k) * g * dt/2", "u = (hop - k) * g * dt/2", "drop = (k - s) * hop * g * dt^2/2")
+OF_EXACT = "drop = (w - u)/2 * hop * dt", "drop = k * hop * g * dt^2/2"
+
+
 @pytest.mark.parametrize(("motion", "correction"), METHODS)
 def test_in_every_hop_the_law_holds_and_k_is_between_the_listing_s_bounds_and_gets_near_them(
         motion: str, correction: str) -> None:
+    formulas = FORMULAS + OF_EXACT if motion == "exact" else FORMULAS
     ks = []
     for CR in (1, 0.91, 0.8, 0.67, 0.5, 0.23):
         for hops in random_hops(motion, correction, CR, 30, 12):
             for hop, after in pairwise(hops):
-                assert hop.u + hop.w == pytest.approx(hop.frames, abs=1e-9)  # (1)
-                assert hop.w - hop.u == pytest.approx(hop.k, abs=1e-9)  # (2)
-                assert after.frames == pytest.approx(CR * (hop.frames + hop.k) + after.k, abs=1e-9)
+                drop = hop.drop_m / hop.way_m * hop.frames / 2  # with g and dt as units
+                for formula in formulas:
+                    assert f" {formula} " in WORDS
+                    left, right = (value(
+                        side, g=1, dt=1, CR=CR, hop=hop.frames, next=after.frames, u=hop.u, w=hop.w,
+                        k=hop.k, next_k=after.k, s=S[motion], drop=drop)
+                        for side in formula.split(" = "))
+                    assert left == pytest.approx(right, abs=1e-9), formula
             ks += [hop.k for hop in hops if hop.frames > 1]
     low, high = BOUNDS[motion, correction]
     assert low - 1e-9 < min(ks) < low + 0.1
@@ -171,16 +182,44 @@ def test_the_drawn_hop_and_the_numbers_of_its_three_steps_are_the_program_s() ->
         assert sentence in WORDS
 
 
-def test_the_proof_s_two_lines_hold_in_every_hop_of_two_frames_or_more() -> None:
+@pytest.mark.parametrize(("motion", "after_n", "bounds"), [
+    ("exact", "height after n frames = n * dt * {}", "So k is more than {} and at most {}."),
+    ("forward", "With forward, {} stands there", "and k is more than {} and at most {}."),
+    ("backward", "With backward it is {}, and", "and k is more than {} and at most {}.")])
+def test_the_proof_holds_in_every_hop_of_two_frames_or_more(
+        motion: str, after_n: str, bounds: str) -> None:
+    factor, = re.findall(re.escape(after_n).replace(r"\{\}", r"(\(u - .*? \* g \* dt/2\))"), WORDS)
+    assert bounds.format(*BOUNDS[motion, "surface"]) in WORDS
     assert "for n = hop it is below 0: u is less than hop * g * dt/2" in WORDS
     assert "for n = hop - 1 it is not: u is at least (hop - 1) * g * dt/2" in WORDS
-    assert "With forward, (u - (n - 1) * g * dt/2) stands there" in WORDS
-    assert "With backward it is (u - (n + 1) * g * dt/2)" in WORDS
+    assert "by (2): u is (hop - k) * g * dt/2" in WORDS
     assert "Let s be 1 for forward, 0 for exact and -1 for backward" in WORDS  # as S has them
-    for motion, late in (("exact", 0), ("forward", 1), ("backward", -1)):
-        for hops in random_hops(motion, "surface", 0.9, 20, 20):
-            for hop in [hop for hop in hops if hop.frames > 1]:
-                assert hop.frames - late - 1 - 1e-9 <= 2 * hop.u < hop.frames - late
+    for hops in random_hops(motion, "surface", 0.9, 20, 20):
+        for hop in [hop for hop in hops if hop.frames > 1]:
+            height, rise = 0.0, hop.u
+            for n in range(1, hop.frames + 1):
+                moved, rise = MOTIONS[motion](0, rise, -1, 1)
+                height += moved
+                assert (height < -1e-9) is (n == hop.frames)
+                assert height == pytest.approx(n * value(factor, u=hop.u, n=n, g=1, dt=1), abs=1e-9)
+
+
+def test_with_rebound_k_is_up_to_1_larger() -> None:
+    assert "so its drop may be larger, and k up to 1 larger." in WORDS
+    for motion in S:
+        low, high = BOUNDS[motion, "surface"]
+        assert BOUNDS[motion, "rebound"] == (low, high + 1)
+
+
+def test_the_hop_that_repeats_and_the_k_of_a_speed() -> None:
+    for formula in ("k * (1 + CR)/(1 - CR)", "hop = CR * (hop + k) + k,",
+                    "hop * (1 - CR) = k * (1 + CR)", "By (2), k is hop - 2 * u/(g * dt)."):
+        assert formula in WORDS
+    for CR, k in ((0.8, 1.5), (0.3, 0.7)):
+        hop = value("k * (1 + CR)/(1 - CR)", CR=CR, k=k)
+        assert hop == pytest.approx(value("CR * (hop + k) + k", CR=CR, k=k, hop=hop))
+        u = value("(hop - k) * g * dt/2", hop=hop, k=k, g=2, dt=3)
+        assert k == pytest.approx(value("hop - 2 * u/(g * dt)", hop=hop, u=u, g=2, dt=3))
 
 
 def test_examples_19_and_20_have_the_k_that_is_told() -> None:

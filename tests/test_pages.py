@@ -625,8 +625,8 @@ def test_the_exercises(capsys: Capture) -> None:
     ending = film(capsys, "12", "CR=0.9", "correction=replay").ending
     rest_s, = re.findall(r"t = (.*) s: the car is at rest", ending)
     assert zeno_s <= float(rest_s) <= zeno_s + 0.125
-    says("EXERCISES", "more than 0.6 * (11 + 1) + 1 = {:.1f} and at most 0.6 * (11 + 2) + 2 = {:.1f}",
-         0.6 * 12 + 1, 0.6 * 13 + 2)
+    says("EXERCISES", "more than 0.6 * (11 + 1) + 1 = {:.1f} and at most 0.6 * (11 + 2) + 2 = "
+         "{:.1f}", 0.6 * 12 + 1, 0.6 * 13 + 2)
     says("EXERCISES", "so 9. After 9 come more than {:.0f} and at most {:.1f}: so 8", 0.6 * 10 + 1,
          0.6 * 11 + 2)
     says("EXERCISES", "= {:.0f} k lines: more than 4, at most 8", 1.6 / 0.4)

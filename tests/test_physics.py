@@ -15,29 +15,34 @@ from hypothesis import strategies as st
 
 from airtrack import CORRECTIONS, MOTIONS, Scene, arrival, render_track, step
 from examples import EXAMPLES
-from films import HERE
+from films import LISTING, WORDS, value
 
 # Denormal numbers have few digits, so no bound by round-off holds for them. No scene needs them.
 speeds = st.floats(-50, 50, allow_subnormal=False)
 accelerations = st.just(0.0) | st.floats(1e-6, 50) | st.floats(-50, -1e-6)
 depths_m = st.floats(1e-3, 5)
 bounces = st.just(0.0) | st.floats(1e-6, 1)
-LISTING = (HERE / "airtrack.py").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize("motion", ["forward", "backward", "exact"])
 @given(x_m=st.floats(-100, 100), v_mps=speeds, a_mps2=accelerations, dt_s=st.floats(1e-3, 1))
 def test_a_step_changes_E_as_its_docstring_says(
         motion: str, x_m: float, v_mps: float, a_mps2: float, dt_s: float) -> None:
-    told = re.findall("adds|takes|No step changes", str(MOTIONS[motion].__doc__))
-    sign = {"adds": 1, "takes": -1, "No step changes": 0}[told[0]]
+    doc = str(MOTIONS[motion].__doc__)
+    told = {"x": x_m, "v": v_mps, "a": a_mps2, "dt": dt_s}
+    for formula in re.findall(r"[xv] \+ [^,.]*", doc):  # in their order
+        told[formula[0]] = value(formula, **told)
+    told_gain = 0.0
+    for verb, gain in re.findall(r"Each step (adds|takes) (.*?) (?:to|from) the energy E", doc):
+        told_gain = value(gain, **told) if verb == "adds" else -value(gain, **told)
+    assert (told_gain == 0) is ("No step changes" in doc) or a_mps2 == 0
     scene = Scene(motion=motion, a_mps2=a_mps2, left_edge_m=-1000, right_edge_m=1000)
     after_m, after_mps, mark_m = step(scene, x_m, v_mps, dt_s)
     assert mark_m is None
-    assert after_mps == pytest.approx(v_mps + a_mps2 * dt_s)
+    assert (after_m, after_mps) == pytest.approx((told["x"], told["v"]), abs=1e-9)
     change = (after_mps**2 - v_mps**2) / 2 - a_mps2 * (after_m - x_m)
     size = v_mps**2 + after_mps**2 + abs(a_mps2) * (abs(x_m) + abs(after_m))
-    assert change == pytest.approx(sign * (a_mps2 * dt_s) ** 2 / 2, abs=1e-14 * size + 1e-12)
+    assert change == pytest.approx(told_gain, abs=1e-14 * size + 1e-12)
 
 
 # The corrections, in the wall's own coordinates.
@@ -166,7 +171,22 @@ def test_the_drawing_of_one_collision_is_the_program_s_with_depth_velocity_and_e
             f"in the drawn collision {energies['surface']} J/kg instead of {energies['rewind']}.",
             f"{CR * w_mps:.2f} m/s in the drawn collision",
             f"{(-moved_mps - w_mps) / a_mps2:.3f} s, {w_mps:.2f} m/s"):
-        assert sentence in " ".join(LISTING.replace("#", "").split())
+        assert sentence in WORDS
+
+
+def test_the_formulas_beside_conserve_and_arrival_hold() -> None:
+    a, d, u, CR, depth, v = 20.0, 0.12, 1.0, 0.8, 0.08, 3.0  # the drawn collision
+    t, w = arrival(d, u, a)
+    new_depth, new_v = CORRECTIONS["conserve"](depth, v, a, CR)
+    assert new_depth == -CR * depth
+    values = {"a": a, "d": d, "u": u, "CR": CR, "depth": depth, "v": v, "t": t, "w": w, "s": -new_v}
+    for formula in ("w^2 = v^2 - 2 a depth", "s^2 = (CR w)^2 - 2 a CR depth",
+                    "w^2 = u^2 + 2 a d", "d = t (u + w)/2", "w = u + a t"):
+        assert f" {formula}" in WORDS
+        left, right = formula.split(" = ")
+        assert value(left, **values) == pytest.approx(value(right, **values))
+    told, = re.findall(r"with d = (\d+), u = (\d+) and a = (-\d+) it is not", WORDS)
+    assert float(told[1])**2 + 2 * float(told[2]) * float(told[0]) < 0
 
 
 def test_the_three_lines_of_example_3_are_the_program_s() -> None:
