@@ -189,7 +189,8 @@ def test_after_the_usual_move_the_ball_gets_lower_even_with_bounce() -> None:
     for _ in range(300):
         exec(usual, values)
         found.append((-0.1 - values["y"], values["v"]))
-    says("README", "back to {:.2f}, {:.2f} and {:.2f} m, even with `bounce`", *tops(found))
+    says("README", "dropped from 1 m (60 FPS, g = 10, CR = 1) gets back to {:.2f}, {:.2f} and "
+         "{:.2f} m, even with `bounce`", *tops(found))
 
 
 def calls() -> dict[str, str]:
@@ -338,6 +339,17 @@ def test_at_CR_1_the_good_order_gets_lower_but_some_balls_repeat_their_hop() -> 
         assert found == sorted(found, reverse=True)
 
 
+def test_a_ball_that_lies_still_has_the_velocity_that_is_told() -> None:
+    says("README", "after each contact it is -CR g dt/(1 + CR)")
+    gravity, position, contact = listing("# gravity").splitlines()
+    lines = compile("\n".join([gravity, position, contact]), "a snippet", "exec")
+    for CR in (0.3, 0.5, 0.8, 0.9):
+        values = room(y=-1.0, r=0.0, floor=0.0, CR=CR)
+        for _ in range(60 * 60):
+            exec(lines, values)
+        assert values["v"] == pytest.approx(-CR * 10 / 60 / (1 + CR))
+
+
 @pytest.mark.parametrize("CR", [0.5, 0.8, 0.9])
 def test_a_threshold_of_2_g_dt_over_1_minus_CR_is_enough_and_most_of_it_is_needed(
         CR: float) -> None:
@@ -365,6 +377,9 @@ def test_the_drawn_collision_is_that_of_the_listing_and_replay_is_as_rewind() ->
         assert line.split() == row.split()
     scene = Scene(x_m=0.32, a_mps2=-20, left_edge_m=0.2, motion="exact", correction="replay")
     x_m, v_mps, _ = step(scene, 0.32, -1, 0.1)
+    says("README", "is {:.0f} m/s\u00b2 into the wall, dt is 0.1 s, CR is {}, and a column is 1 cm.",
+         -scene.a_mps2, scene.CR)
+    says("README", "keeps {} of the speed, so {:.2f} of the energy", scene.CR, scene.CR**2)
     found = 0.2 - x_m, -v_mps, v_mps**2 / 2 + 20 * (x_m - 0.2)
     assert [float(text) for text in rows[-1].split()[-3:]] == pytest.approx(found, abs=0.005)
 
@@ -399,11 +414,14 @@ def test_four_rows_of_the_map() -> None:
         (name, letters), = re.findall(r"(\w+ \+ \w+) +(.*)", row)
         assert letters.split() == rows[name]
     own = [name for name in rows if name.split()[0] not in ("forward", "backward", "exact")]
-    says("README", "a map of all {}, at CR = {}", len(rows) - len(own), EXAMPLES[20].settings["CR"])
+    says("README", "`python airtrack.py stability 20` prints a map of all {}, at CR = {}",
+         len(rows) - len(own), EXAMPLES[20].settings["CR"])
 
 
 def test_the_bounds_of_k_are_those_of_the_listing() -> None:
     code = (HERE / "airtrack.py").read_text(encoding="utf-8")
+    for formula in ("w - u = k g dt", "hop = (u + w)/(g dt)", "**next = CR (hop + k) + k\u2032**"):
+        says("README", formula)  # tested as the listing's
     for motion in ("forward", "exact", "backward"):
         surface, rebound = re.findall(rf"(?m)^\| {motion} \| (.*?) \| (.*?) \|$",
                                       README.replace("\u2212", "-"))[0]
