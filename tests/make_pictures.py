@@ -96,17 +96,22 @@ SHEET_COLUMNS = 67  # up to the right wall
 TASKS = """
 Tasks
 
+A 0 shows where a step ended, beyond the wall. The * in the same line
+shows where the program put the car.
+
 1. Mark the two bounces. At what time are they?
 
    first bounce: ______ s          second bounce: ______ s
 
 2. Mark the two places where the car turns at the right. How many
-   columns before the dots (2 m) are they?
+   columns is it from the * to the dots at 2 m? (Count the column of the
+   dots, but not that of the *.) A column is 3.3 cm.
 
-   first turn: ______ columns      second turn: ______ columns
+   first turn: ______ columns = ______ cm
+   second turn: ______ columns = ______ cm
 
 3. The first 0 is 7 cm beyond the wall, and the second 0 is 19 cm beyond
-   it. (The picture shows this only in columns of 3.3 cm.) The program
+   it. (You cannot read this so exactly in the picture.) The program
    puts the car equally far in front of the wall. So it lifts the car up
    the track. By how much?
 
@@ -114,17 +119,18 @@ Tasks
    second bounce: 19 + ______ = ______ cm
 
 4. From the start to the first turn there are 26 steps, and 26 more to
-   the second turn. Each step ends 1 cm too low on the track. So how
-   many cm higher (+) or lower (-) is each turn?
+   the second turn. Each step ends 1 cm too far to the left, so it takes
+   1 cm of the height. How many cm higher (+) or lower (-) is each turn?
 
    first turn, from the start: ______ - 26 = ______ cm
    second turn, from the first turn: ______ - 26 = ______ cm
+   second turn, from the start: ______ + ______ = ______ cm
 
-   Does this agree with your answer to task 2?
+   Compare with your cm in task 2. (1 or 2 cm do not matter.)
 
 5. For quick pairs. Until its first bounce the true car is at
-   x = 2 - t^2 (x in m, t in s). Mark it at t = 0.5, 1.0 and 1.2 s. How
-   many columns is the * from it at 1.0 s?
+   x = 2 - t^2 (x in m, t in s). Where is it at t = 1.0 s? Mark it. How
+   many columns is the * from it?
 """
 
 
