@@ -687,6 +687,12 @@ def add_the_motion(folder: Path) -> None:
     (folder / "airtrack.py").write_text(text, encoding="utf-8")
 
 
+def test_what_differs_from_the_lesson_that_it_follows_names_its_examples() -> None:
+    told, = re.findall(r"irregular frames in examples (.*?) repeat in each run", PLAIN["README"])
+    irregular = [number for number, each in EXAMPLES.items() if each.settings.get("jitter")]
+    assert [int(number) for number in re.findall(r"\d+", told)] == irregular
+
+
 def test_pip_install_brings_the_dependencies_alone() -> None:
     try:
         files = importlib.metadata.files("airtrack") or []
