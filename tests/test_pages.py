@@ -688,7 +688,7 @@ def add_the_motion(folder: Path) -> None:
 
 
 def test_what_differs_from_the_lesson_that_it_follows_names_its_examples() -> None:
-    told, = re.findall(r"irregular frames in examples (.*?) repeat in each run", PLAIN["README"])
+    told, = re.findall(r"irregular frames in examples (.*?) repeat in each run", PLAIN["EXERCISES"])
     irregular = [number for number, each in EXAMPLES.items() if each.settings.get("jitter")]
     assert [int(number) for number in re.findall(r"\d+", told)] == irregular
 
