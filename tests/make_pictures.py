@@ -119,8 +119,9 @@ shows where the program put the car.
    second bounce: 19 + ______ = ______ cm
 
 4. From the start to the first turn there are 26 steps, and 26 more to
-   the second turn. Each step ends 1 cm too far to the left, so it takes
-   1 cm of the height. How many cm higher (+) or lower (-) is each turn?
+   the second turn. Count energy in cm of the track: each step loses
+   1 cm, and each bounce gains its lift. How many cm higher (+) or lower
+   (-) is each turn?
 
    first turn, from the start: ______ - 26 = ______ cm
    second turn, from the first turn: ______ - 26 = ______ cm

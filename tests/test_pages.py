@@ -467,8 +467,7 @@ def test_the_table_of_three_steps() -> None:
     for row, side in ((rows[0], "right: 1, 2, 3 cm"), (rows[1], "left")):
         off_cm = [abs(float(a) - float(b)) for a, b in zip(row, rows[3], strict=True)]
         assert off_cm == [1, 2, 3]
-        says("LESSON", "velocity {} 1 cm to the {}.", "each step adds an error of"
-             if side != "left" else "it adds", side)
+        says("LESSON", "adds {}1 cm to the {}.", "an error of " if "right" in side else "", side)
     assert rows[3] == tuple(f"{-100 * (n / 10) ** 2:.0f}" for n in (1, 2, 3))
 
 
@@ -506,14 +505,14 @@ def test_the_figures_of_example_13() -> None:
     truth = truth_of(Scene(**EXAMPLES[13].settings))
     true_xs = [step(truth, truth.x_m, truth.v_mps, n / 10)[0] for n in range(1, 21)]
     xs = [x_m for x_m, *_ in found]
-    says("LESSON", "the `*` got to {:.2f} m, and the `o` only to {:.2f} m. Both turned near line "
+    says("LESSON", "The `*` got to {:.2f} m, and the `o` only to {:.2f} m. Both turned near line "
          "12 or 13", max(xs), max(true_xs))
     assert (xs.index(max(xs)), true_xs.index(max(true_xs))) == (13 - 1, 12 - 1)
     says("LESSON", "In line 15 both go back, and the `*` is {:.0f} cm further to the right",
          100 * (xs[14] - true_xs[14]))
     assert xs[14] < xs[13]
     assert true_xs[14] < true_xs[13]
-    says("LESSON", "the car leaves the left wall uphill, at {} m/s", EXAMPLES[13].settings["v_mps"])
+    says("LESSON", "Both leave the left wall uphill, at {} m/s", EXAMPLES[13].settings["v_mps"])
     says("LESSON", "is worth |a| * 0.01 m = {:.2f} J/kg. After 15 steps that is {:.2f} J/kg",
          2 * 0.01, 15 * 0.02)
     says("LESSON", "the energy grew from {:.3f} to {:.3f} J/kg", energy(13, 0.25, 2.48),
@@ -594,7 +593,7 @@ def test_the_worksheet_is_the_film_fits_on_A4_and_tells_no_answer(capsys: Captur
         assert f" {depth_cm} cm beyond" in tasks
         says("LESSON", "{0} + {0} = {1} cm", depth_cm, 2 * depth_cm)
         says("LESSON", "{} - 26 = {:+}: the ", 2 * depth_cm, 2 * depth_cm - 26)
-    says("LESSON", "Together {0} cm are taken, and {0} cm are given", 26 + 26)
+    says("LESSON", "Together {0} cm are lost, and {0} cm are gained", 26 + 26)
     assert 14 + 38 == 26 + 26
 
 
