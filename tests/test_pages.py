@@ -412,6 +412,7 @@ def test_four_rows_of_the_map() -> None:
         (name, letters), = re.findall(r"(\w+ \+ \w+) +(.*)", row)
         assert letters.split() == rows[name]
     own = [name for name in rows if name.split()[0] not in ("forward", "backward", "exact")]
+    says("README", "so there are 3 * 4 + 2 = {} methods", len(rows) - len(own))
     says("README", "`python airtrack.py stability 20` prints a map of all {}, at CR = {}",
          len(rows) - len(own), EXAMPLES[20].settings["CR"])
 
