@@ -430,8 +430,8 @@ def test_the_bounds_of_k_are_those_of_the_listing() -> None:
 
 def test_where_hops_end_from_random_starts() -> None:
     says("README", "If k is above 0, the ball gets too much energy.")
-    says("README", "k (1 + CR)/(1 - CR) frames: at CR 0.8 that is {:.0f} k. If k is below 0, it "
-         "gets too little", 1.8 / 0.2)
+    says("README", "they have k (1 + CR)/(1 - CR) frames: at CR 0.8 that is {:.0f} k. If k is "
+         "below 0, it gets too little", 1.8 / 0.2)
     says("README", "{} random starts at CR 0.8 (up to {} m/s, from {} to {} m, g {}, {} FPS) ended",
          300, 1, 0.5, 2, 10, 60)
     for name, motion, correction in (
