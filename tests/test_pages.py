@@ -18,8 +18,8 @@ from hypothesis import strategies as st
 from test_chart_and_map import errors_m, map_rows, printed
 
 import airtrack
-from airtrack import CHART_FPS, CORRECTIONS, METHODS, MOTIONS, Scene, step, truth_of
-from examples import EXAMPLES
+from airtrack import CHART_FPS, CORRECTIONS, METHODS, MOTIONS, SPAN_S, Scene, step, truth_of
+from examples import EXAMPLES, READING_S
 from films import (
     HERE,
     collisions,
@@ -269,6 +269,8 @@ def test_a_fixed_step_gives_the_same_number_of_steps_at_any_frame_rate() -> None
     names = {"waiting": 0.0, "dt": 1 / 100, "step": Mock(), "y": 0.0}
     exec(code, names | {"frame_time": 60.0}, names)
     assert names["step"].call_count in (24, 25)  # the cap
+    says("README", "The cap of {} s keeps", 0.25)
+    says("README", "multiply v by {} and g by {}", 60, 60**2)
 
 
 # The order of three lines, and a threshold.
@@ -362,7 +364,8 @@ def test_a_threshold_of_2_g_dt_over_1_minus_CR_is_enough_and_most_of_it_is_neede
     assert still_moving[2.0] == 0
     assert still_moving[1.0] > 50
     says("README", "at 60 FPS, g = 9.81 and CR = 0.95 it is {:.1f} m/s", 2 * 9.81 / 60 / 0.05)
-    assert math.sqrt(2 * 9.81) < 2 * 9.81 / 60 / 0.05  # a drop from 1 m comes in slower
+    says("README", "so a ball that is dropped from {} m never bounces", 1)
+    assert math.sqrt(2 * 9.81 * 1) < 2 * 9.81 / 60 / 0.05  # it comes in slower
 
 
 # The methods, how good they are, and the law.
@@ -377,7 +380,8 @@ def test_the_drawn_collision_is_that_of_the_listing_and_replay_is_as_rewind() ->
     x_m, v_mps, _ = step(scene, 0.32, -1, 0.1)
     says("README", "is {:.0f} m/s\u00b2 into the wall, dt is 0.1 s, CR is {}, and a column is 1 cm",
          -scene.a_mps2, scene.CR)
-    says("README", "keeps {} of the speed, so {:.2f} of the energy", scene.CR, scene.CR**2)
+    says("README", "keeps {} of the speed, so {:.2f} of the energy: {} of {} J/kg", scene.CR,
+         scene.CR**2, rows[-1].split()[-1], rows[0].split()[-1])
     found = 0.2 - x_m, -v_mps, v_mps**2 / 2 + 20 * (x_m - 0.2)
     assert [float(text) for text in rows[-1].split()[-3:]] == pytest.approx(found, abs=0.005)
 
@@ -398,6 +402,9 @@ def test_what_the_chart_shows() -> None:
     assert (a[5] / a[8])**(1 / 3) == pytest.approx(2, rel=0.2)
     assert (c[5] / c[8])**(1 / 3) == pytest.approx(4, rel=0.2)
     assert max(d) < 1e-10
+    says("README", "Each line goes from {} FPS, at its top, to {} FPS", CHART_FPS[0], CHART_FPS[-1])
+    says("README", "five methods, from {} to {} frames a second", CHART_FPS[0], CHART_FPS[-1])
+    says("README", "looked at every 0.1 s for {} s, in ten runs", SPAN_S)
     d = errors_m("12", "d")
     says("README", "Then d errs, too: {:.1f} mm at 10 FPS and {:.2f} mm at 60 FPS in example 12",
          1000 * d[0], 1000 * d[CHART_FPS.index(60)])
@@ -412,6 +419,7 @@ def test_four_rows_of_the_map() -> None:
         (name, letters), = re.findall(r"(\w+ \+ \w+) +(.*)", row)
         assert letters.split() == rows[name]
     own = [name for name in rows if name.split()[0] not in ("forward", "backward", "exact")]
+    says("README", "over a column ({:.1f} cm) off", 100 / Scene().m_to_px)
     says("README", "so there are 3 * 4 + 2 = {} methods", len(rows) - len(own))
     says("README", "`python airtrack.py stability 20` prints a map of all {}, at CR = {}",
          len(rows) - len(own), EXAMPLES[20].settings["CR"])
@@ -497,8 +505,15 @@ def test_the_ways_back_of_example_1_and_the_energy_that_its_bounces_give() -> No
     says("LESSON", "found {:.0f} cm deep in the wall and give {:.2f} J/kg too much",
          100 * depths_m[1], gifts[0])
     says("LESSON", "is found {:.1f} cm deep and gives {:.2f} J/kg", 100 * depths_m[2], gifts[2])
-    says("LESSON", "so 0.7\u00b2 = {:.2f} of it is left", 0.7**2)
-    says("LESSON", "of the way before, and not {:.2f}.", 0.7**2)
+    scene = Scene(**EXAMPLES[1].settings)
+    says("LESSON", "s = x - {} m, at the start {} m", scene.left_edge_m,
+         scene.x_m - scene.left_edge_m)
+    says("LESSON", "the car keeps {0:.0f} % of its speed. What", 100 * scene.CR)
+    says("LESSON", "many say {:.0f} %. That is the speed.", 100 * scene.CR)
+    says("LESSON", "so 0.7\u00b2 = {:.2f} of it is left", scene.CR**2)
+    says("LESSON", "of the way before, and not {:.2f}.", scene.CR**2)
+    says("LESSON", "If somebody measures {:.2f}: well seen", ways[1])
+    says("LESSON", "With an exact method it is {:.2f} each time", scene.CR**2)
     says("LESSON", "each step takes {:.5f} J/kg", 1.5**2 / 30**2 / 2)
     ways, *_ = ways_and_gifts(motion="exact", correction="rewind")
     assert ways == pytest.approx([0.49] * 3, abs=0.005)
@@ -517,6 +532,7 @@ def test_the_figures_of_example_13() -> None:
     assert (xs.index(max(xs)), true_xs.index(max(true_xs))) == (13 - 1, 12 - 1)
     says("LESSON", "In line 15 both go back, and the `*` is {:.0f} cm further to the right",
          100 * (xs[14] - true_xs[14]))
+    says("LESSON", "in line 15 the `*` is {:.0f} cm further up", 100 * (xs[14] - true_xs[14]))
     assert xs[14] < xs[13]
     assert true_xs[14] < true_xs[13]
     says("LESSON", "Both leave the left wall uphill, at {} m/s", EXAMPLES[13].settings["v_mps"])
@@ -541,7 +557,19 @@ def test_the_energies_of_example_8() -> None:
     turns_m = [max(x_m for x_m, *_ in found[a:b]) for a, b in ((14, 38), (40, 60))]
     says("LESSON", "(The exact figure is {:.0f} cm.)", 100 * (2 - turns_m[0]))
     assert turns_m[1] == pytest.approx(2)
-    says("LESSON", "| first return | {:.2f} J/kg |", high - 13 * 0.02)
+    taken = 13 * 2 * 0.01
+    says("LESSON", "| first return | {:.2f} J/kg | 13 steps have taken {:.2f}. |", high - taken, taken)
+    says("LESSON", "| second return | {:.2f} J/kg | 13 steps have taken {:.2f}. |", high_2 - taken,
+         taken)
+    says("LESSON", "Each step takes 1 cm, so {:.2f} J/kg. A bounce gives |a| times the lift, so "
+         "{:.0f} m/s\u00b2 * (2 * {:.2f} m)", 2 * 0.01, 2, depth_m)
+    says("LESSON", "a car {0:.0f} cm beyond it, and an arrow to {0:.0f} cm in front", 100 * depth_m)
+    says("LESSON", "loses 1 cm, downhill and uphill, so {0} steps always lose {0} cm.", 26)
+    says("LESSON", "The first bounce gains {:.0f} cm, too little, and the second {:.0f} cm, too "
+         "much", 200 * depth_m, 200 * depth_2_m)
+    four_returns_s = 4 * 26 / 10
+    says("LESSON", "come back four times, for {} s", math.ceil(four_returns_s))
+    says("LESSON", "the first. {0} + {1} = {2}: it", -12, 12, -12 + 12)
     assert low_2 == pytest.approx(high - 26 * 0.02)
     energies = [energy(8, x_m, v_mps) for x_m, v_mps, _ in found]
     says("LESSON", "says least {:.2f} and most {:.2f}", min(energies), max(energies))
@@ -552,6 +580,11 @@ def test_the_figures_of_example_10() -> None:
     says("LESSON", "so t = \u221a1.75 s = {:.3f} s", fall_s)
     says("LESSON", "the bounce was {:.3f} s after line 13", fall_s - 1.3)
     says("LESSON", "on for the other {:.3f} s", 1.4 - fall_s)
+    says("LESSON", "as before: {} s. But now", 1 / EXAMPLES[10].settings["fps_target"])
+    says("LESSON", "compute: {} m = \u00bd * {:.0f} m/s\u00b2 * t\u00b2, so", 2 - 0.25, 2)
+    says("LESSON", "Line {0} is at {1} s, and line {2} at {3} s.", 13, 13 / 10, 14, 14 / 10)
+    says("LESSON", "The table says {} J/kg, first to last", energy(10, 2, 0))
+    says("LESSON", "fourteen times. Line {} has the `0`", 14)
     found = states(10, 14)
     says("LESSON", "from {:.2f} m to the `0` at {:.2f} m, through the wall at {} m", found[12][0],
          found[13][2], Scene().left_edge_m)
@@ -568,6 +601,11 @@ def test_the_answer_to_example_3() -> None:
          after_mps - 1.5 / 30, 100 * (next_m - mark_m))
     late = states(3, 600)
     says("LESSON", "in the end by {:.0f} mm a frame", 1000 * (late[-2][0] - late[-1][0]))
+
+
+def test_a_film_begins_after_the_seconds_that_the_lesson_tells() -> None:
+    for told in ("A film begins by itself after {} s.", "and after {} s a `*` that moves"):
+        says("LESSON", told, round(READING_S))
 
 
 def test_the_worksheet_is_the_film_fits_on_A4_and_tells_no_answer(capsys: Capture) -> None:
