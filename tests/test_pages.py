@@ -558,7 +558,8 @@ def test_the_energies_of_example_8() -> None:
     says("LESSON", "(The exact figure is {:.0f} cm.)", 100 * (2 - turns_m[0]))
     assert turns_m[1] == pytest.approx(2)
     taken = 13 * 2 * 0.01
-    says("LESSON", "| first return | {:.2f} J/kg | 13 steps have taken {:.2f}. |", high - taken, taken)
+    says("LESSON", "| first return | {:.2f} J/kg | 13 steps have taken {:.2f}. |", high - taken,
+         taken)
     says("LESSON", "| second return | {:.2f} J/kg | 13 steps have taken {:.2f}. |", high_2 - taken,
          taken)
     says("LESSON", "Each step takes 1 cm, so {:.2f} J/kg. A bounce gives |a| times the lift, so "
