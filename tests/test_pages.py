@@ -661,6 +661,7 @@ def test_the_engine_is_a_page_and_example_0_and_a_spring_swings_on(capsys: Captu
     assert [line[:126] for line in lines] == [
         line[:126] for line in film(capsys, "--frames", "600").lines]
     new, = re.findall(r"first line in `move` by `(v_mps .*)`", EXERCISES)
+    says("EXERCISES", "the car towards {} m", re.findall(r"x_m - (\d+)", new)[0])
     lines = filmed(code.replace(old, f"    {new}\n"), 6000)
     for last in (lines[3000:4000], lines[5000:]):
         xs = [details(line)[0] for line in last]
