@@ -97,11 +97,13 @@ TASKS = """
 Tasks
 
 A 0 shows where a step ended, beyond the wall. The * in the same line
-shows where the program put the car.
+shows where the program put the car. The car starts at t = 0 on the
+dots. The first line is at t = 0.1 s.
 
-1. Mark the two bounces. At what time are they?
+1. In which two lines is the car found beyond the wall? At what time?
 
-   first bounce: ______ s          second bounce: ______ s
+   first bounce: line ______, ______ s
+   second bounce: line ______, ______ s
 
 2. Mark the two places where the car turns at the right. How many
    columns is it from the * to the dots at 2 m? (Count the column of the
@@ -119,9 +121,11 @@ shows where the program put the car.
    second bounce: 19 + ______ = ______ cm
 
 4. From the start to the first turn there are 26 steps, and 26 more to
-   the second turn. Count energy in cm of the track: each step loses
-   1 cm, and each bounce gains its lift. How many cm higher (+) or lower
-   (-) is each turn?
+   the second turn. A car that is 1 cm higher on the track at the same
+   speed has 0.02 J/kg more energy. So we count energy in cm. Each step
+   loses 1 cm. Each bounce gains its lift, because the car is put higher
+   and keeps its speed. How many cm higher (+) or lower (-) is each
+   turn?
 
    first turn, from the start: ______ - 26 = ______ cm
    second turn, from the first turn: ______ - 26 = ______ cm

@@ -474,10 +474,10 @@ def test_the_table_of_three_steps() -> None:
             x_m, v_mps = MOTIONS[name](x_m, v_mps, -2.0, 0.1)
             places.append(100 * x_m)
         assert [float(text) for text in row] == pytest.approx(places, abs=1e-9)
-    for row, side in ((rows[0], "right: 1, 2, 3 cm"), (rows[1], "left")):
-        off_cm = [abs(float(a) - float(b)) for a, b in zip(row, rows[3], strict=True)]
-        assert off_cm == [1, 2, 3]
-        says("LESSON", "adds {}1 cm to the {}.", "an error of " if "right" in side else "", side)
+    for row, sign, told in ((rows[0], 1, "Old velocity: {}, {}, {} cm too far to the right"),
+                            (rows[1], -1, "New velocity: {}, {}, {} cm too far to the left")):
+        off_cm = [sign * (int(a) - int(b)) for a, b in zip(row, rows[3], strict=True)]
+        says("LESSON", told, *off_cm)
     says("LESSON", "After the first step its velocity is {:.0f} cm/s. In the second step the old "
          "velocity moves it by {:.0f} cm/s * {} s = {:.0f} cm", -20, -200 * 0.1, 0.1, -20 * 0.1)
     says("LESSON", "(The velocity is {:.0f} and {:.0f} cm/s after", -200 * 0.2, -200 * 0.3)
@@ -532,12 +532,12 @@ def test_the_figures_of_example_13() -> None:
     assert (xs.index(max(xs)), true_xs.index(max(true_xs))) == (13 - 1, 12 - 1)
     says("LESSON", "In line 15 both go back, and the `*` is {:.0f} cm further to the right",
          100 * (xs[14] - true_xs[14]))
-    says("LESSON", "in line 15 the `*` is {:.0f} cm further up", 100 * (xs[14] - true_xs[14]))
+    says("LESSON", "in line 15 the `*` is {:.0f} cm higher on", 100 * (xs[14] - true_xs[14]))
     assert xs[14] < xs[13]
     assert true_xs[14] < true_xs[13]
     says("LESSON", "Both leave the left wall uphill, at {} m/s", EXAMPLES[13].settings["v_mps"])
-    says("LESSON", "is worth |a| * 0.01 m = {:.2f} J/kg. After 15 steps that is {:.2f} J/kg",
-         2 * 0.01, 15 * 0.02)
+    says("LESSON", "Each cm is worth 2 m/s\u00b2 * 0.01 m = {:.2f} J/kg.", 2 * 0.01)
+    says("LESSON", "15 cm are worth 15 * 0.02 = {:.2f} J/kg", 15 * 0.02)
     says("LESSON", "the energy grew from {:.3f} to {:.3f} J/kg", energy(13, 0.25, 2.48),
          energy(13, *found[14][:2]))
 
@@ -616,6 +616,9 @@ def test_the_worksheet_is_the_film_fits_on_A4_and_tells_no_answer(capsys: Captur
     says("LESSON", "The film has {} lines of at most {} columns", len(lines), max(map(len, lines)))
     assert len(lines) * 12 + 2 * 72 <= 842  # points: 10-point lines and margins on A4
     assert max(map(len, sheet.splitlines())) * 6 + 2 * 72 <= 595
+    scale = lines[-54]
+    for metres in ("0.5", "1.0", "1.5", "2.0"):
+        assert scale.find(metres) + 1 == round(30 * float(metres))
     shown = film(capsys, "8", "--frames", "53", "m_to_px=30", "width_px=67").lines
     for number, (line, wanted) in enumerate(zip(lines[-53:], shown, strict=True), 1):
         assert set(line[:67].strip()) <= set("|.*0 ")
@@ -706,7 +709,7 @@ def test_the_exercises(capsys: Capture) -> None:
          "{:.1f}", 0.6 * 12 + 1, 0.6 * 13 + 2)
     says("EXERCISES", "so 9. After 9 come more than {:.0f} and at most {:.1f}: so 8", 0.6 * 10 + 1,
          0.6 * 11 + 2)
-    says("EXERCISES", "= {:.0f} k lines: more than 4, at most 8", 1.6 / 0.4)
+    says("EXERCISES", "k (1 + CR)/(1 - CR) = {:.0f} k lines: more than 4, at most 8", 1.6 / 0.4)
     told, = re.findall(r"The film has ([0-9 ]+) \u2026", PLAIN["EXERCISES"])
     lines = [int(word) for word in told.split()]
     scene = Scene(**EXAMPLES[20].settings | {
@@ -715,6 +718,7 @@ def test_the_exercises(capsys: Capture) -> None:
 
 
 def test_a_real_ball() -> None:
+    says("EXERCISES", "whose first hop takes {} s bounces infinitely often", 0.63)
     says("EXERCISES", "within 0.63/(1 - 0.9) s = {:.1f} s", 0.63 / (1 - 0.9))
     rests, hops_on = map(float, re.findall(r"fter one of (\S+) s it is", PLAIN["EXERCISES"]))
     scene = Scene(x_m=0.25, v_mps=9.81 * 0.63 / 2, a_mps2=-9.81, CR=0.9, motion="exact",
