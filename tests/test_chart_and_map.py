@@ -335,7 +335,7 @@ def test_the_numbers_beside_the_code_of_chart_and_map_are_its_own() -> None:
     cuts = ", ".join([f"{3 * cut - 2}/27" for cut in (1, 2, 3)])  # tested in the first test
     for sentence in (
             f"Nine parts, 1/9 of a frame apart: {cuts}, ... {3 * 9 - 2}/27.",
-            f"twice the rate divides the error by {2**1}, at order 2 by {2**2}.",
+            f"At order 1 twice the rate divides the error by {2**1}, at order 2 by {2**2}.",
             f"here begin the samples of the last {late_s:.0f} of {SPAN_S} s",
             f"was it beyond the same wall all through the last {late_s:.0f} s?",
             f"did the true car rest all through the last {late_s:.0f} s, but not this one?",

@@ -228,6 +228,7 @@ def test_a_moving_paddle_leaves_the_ball_where_it_truly_is(
 
 def test_a_thin_platform_or_wall_stops_every_bullet_and_carries_a_ball() -> None:
     snippet, rng = listing("old <= face < y"), random.Random(2)
+    says("README", "write x, vx, X and 0 in place of y, v, Y and g")
     wall = re.sub(r"\bg\b", "0", re.sub(r"\by\b", "x", snippet)).replace("Y", "X")
     wall = re.sub(r"\bv\b", "vx", wall)
     platform, side = compile(snippet, "a snippet", "exec"), compile(wall, "a snippet", "exec")
