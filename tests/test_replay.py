@@ -143,8 +143,8 @@ def test_hops_until_rest_are_as_many_as_the_listing_tells_and_at_CR_1_none_is_fo
         flights.reset_mock()
         assert step(exact(left_edge_m=0, a_mps2=-9.8, CR=CR), 2.0, 0.0, 1000.0)[:2] == (0, 0)
         told.append(f"at bounce {flights.call_count} if CR is {CR}")
-    assert ("if the first hop lasts 1 s, all of them last 1 + CR + CR^2 + ... seconds, and this sum "
-            "is 1/(1 - CR).") in WORDS
+    assert ("if the first hop lasts 1 s, all of them last 1 + CR + CR^2 + ... seconds, and this "
+            "sum is 1/(1 - CR).") in WORDS
     assert f"After a drop from 2 m this is {', and '.join(told)}." in WORDS
     flights.reset_mock()
     step(exact(x_m=0.25, a_mps2=-2, CR=1), 0.25, 1e-3, 20.0)  # 20 000 hops
