@@ -705,6 +705,7 @@ def test_the_board_sketch_is_the_track_of_the_examples() -> None:
 def test_the_exercises(capsys: Capture) -> None:
     zeno_s = math.sqrt(1.75) * 1.9 / 0.1
     says("EXERCISES", "T (1 + CR)/(1 - CR) = {:.1f} s", zeno_s)
+    says("EXERCISES", "When does it come to rest if CR is {}?", 0.9)
     ending = film(capsys, "12", "CR=0.9", "correction=replay").ending
     rest_s, = re.findall(r"t = (.*) s: the car is at rest", ending)
     assert zeno_s <= float(rest_s) <= zeno_s + 0.125
@@ -721,7 +722,7 @@ def test_the_exercises(capsys: Capture) -> None:
 
 
 def test_a_real_ball() -> None:
-    says("EXERCISES", "whose first hop takes {} s bounces infinitely often", 0.63)
+    says("EXERCISES", "CR = {} whose first hop takes {} s bounces infinitely", 0.9, 0.63)
     says("EXERCISES", "within 0.63/(1 - 0.9) s = {:.1f} s", 0.63 / (1 - 0.9))
     rests, hops_on = map(float, re.findall(r"fter one of (\S+) s it is", PLAIN["EXERCISES"]))
     scene = Scene(x_m=0.25, v_mps=9.81 * 0.63 / 2, a_mps2=-9.81, CR=0.9, motion="exact",
