@@ -26,13 +26,26 @@ if sys.platform != "win32":
 HERE = Path(__file__).resolve().parent.parent
 COMMAND = [sys.executable, str(HERE / "airtrack.py")]
 LISTING = (HERE / "airtrack.py").read_text(encoding="utf-8")
-WORDS = " ".join(LISTING.replace("#", "").split())  # its comments as running text
+
+
+def running_text(part: str) -> str:
+    """A part of the listing with its comments on one line."""
+    return " ".join(part.replace("#", "").split())
+
+
+WORDS = running_text(LISTING)
 
 
 def value(formula: str, **names: float) -> float:
     """A formula of the listing, worked out: a b is a product there, ^ a power, k' the next k."""
     code = re.sub(r"(?<=[\w)]) (?=[\w(])", "*", formula)
     return float(eval(code.replace("^", "**").replace("k'", "next_k"), dict(names)))
+
+
+def sides(equation: str, **names: float) -> tuple[float, float]:
+    """Both sides of an equation of the listing, worked out."""
+    left, right = equation.split(" = ")
+    return value(left, **names), value(right, **names)
 
 
 # Nothing else of the environment in which the tests are started reaches a run: no display, no

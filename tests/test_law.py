@@ -16,10 +16,10 @@ import pytest
 
 from airtrack import MOTIONS, Scene, render_track, step
 from examples import EXAMPLES
-from films import LISTING, value
+from films import LISTING, running_text, sides, value
 
 LAW = LISTING.partition("# ==== 9. ")[2].partition("# ==== 10. ")[0]
-WORDS = " ".join(LAW.replace("#", "").split())
+WORDS = running_text(LAW)
 S = {"forward": 1, "exact": 0, "backward": -1}  # what a frame does to the energy, in g^2 dt^2/2
 METHODS = [(motion, correction) for motion in S for correction in ("surface", "rebound")]
 BOUNDS = {(motion, correction): (int(low), int(high))
@@ -89,17 +89,18 @@ OF_EXACT = "drop = (w - u)/2 * hop * dt", "drop = k * hop * g * dt^2/2"
 def test_in_every_hop_the_law_holds_and_k_is_between_the_listing_s_bounds_and_gets_near_them(
         motion: str, correction: str) -> None:
     formulas = FORMULAS + OF_EXACT if motion == "exact" else FORMULAS
+    for formula in formulas:
+        assert f" {formula} " in WORDS
     ks = []
     for CR in (1, 0.91, 0.8, 0.67, 0.5, 0.23):
         for hops in random_hops(motion, correction, CR, 30, 12):
             for hop, after in pairwise(hops):
-                drop = hop.drop_m / hop.way_m * hop.frames / 2  # with g and dt as units
+                values = {
+                    "g": 1, "dt": 1, "CR": CR, "hop": hop.frames, "next": after.frames,
+                    "u": hop.u, "w": hop.w, "k": hop.k, "next_k": after.k, "s": S[motion],
+                    "drop": hop.drop_m / hop.way_m * hop.frames / 2}  # with g and dt as units
                 for formula in formulas:
-                    assert f" {formula} " in WORDS
-                    left, right = (value(
-                        side, g=1, dt=1, CR=CR, hop=hop.frames, next=after.frames, u=hop.u, w=hop.w,
-                        k=hop.k, next_k=after.k, s=S[motion], drop=drop)
-                        for side in formula.split(" = "))
+                    left, right = sides(formula, **values)
                     assert left == pytest.approx(right, abs=1e-9), formula
             ks += [hop.k for hop in hops if hop.frames > 1]
     low, high = BOUNDS[motion, correction]
