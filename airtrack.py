@@ -3,7 +3,7 @@
 So its film is a graph: position to the right, time downwards.
 
 A WORD is one of these, in any order:
-    EXAMPLE      the number of an example (without it 0, for a map or chart 10)
+    EXAMPLE      the number of an example (without it 1, for chart and map 12)
     d            details after each line: position x, velocity v, frame rate FPS
                  and, if the true car o is drawn, err: how far the car is to the
                  right of the o
@@ -12,58 +12,40 @@ A WORD is one of these, in any order:
                  and how wrong it is
     stability    no film, but the map: at which frame rates each method fails
 
-For example: python airtrack.py 10 d fps_target=30
+For example: python airtrack.py 10 d CR=0.9
 
-In a film, * is the car and | is a wall. < or > is the car, too, when it is out of
-the picture. If the car bounces, 0 is where the frame would have ended without walls.
-A . is the start. o is the true car. If you changed an example, + is the car of the
-unchanged example. a to e are the cars of five methods.
+In a film, * is the car and | is a wall. < or > is the car, too, when it is out
+of the picture. If the car bounces, 0 is where the frame would have ended without
+walls. A . is the start. o is the true car. If you change an example, but not
+its frames, + is the car of the example as it is. a to e are the cars of five
+methods.
 
 README.md says what this is good for. .github/lesson.md is a lesson for a class.
 """
 # What is where?
-#     Sections 1 to 4    the physics: how a car moves and bounces, and where it truly is.
-#     Sections 5 and 6   the film: how a frame is drawn, and the main loop.
-#     Sections 7 to 9    how wrong the methods are: the chart, the map, and the law behind the map.
-#     Sections 10 to 12  what is said around a film, checks, the command line. They hold no physics.
+#     Sections 1 to 4     the physics: how a car moves and bounces, and where it truly is.
+#                         Section 4 ends with a table: which method is good for what.
+#     Sections 5 and 6    the film: how a frame is drawn, and the main loop.
+#     Sections 7 to 9     how wrong the methods are: the chart, the map, and the law behind the map.
+#     Sections 10 and 11  what is said around a film, and the command line. They hold no physics.
 # The file examples.py holds the numbered examples and the keys.
-#
-# Which method should I take? If you read nothing else, read this table. A method is a motion and a
-# correction. The motion moves the car through a frame as if there were no walls. If the move has
-# ended beyond a wall, the correction says where the car is instead, and how fast.
-#
-#     method                 order  energy       take it for
-#     a  backward + rebound  1      up and down  scenery, where heights and times do not matter
-#     b  exact + rebound     1      too much     nothing: a car that should come to rest hops on
-#     c  exact + conserve    2      right        most things
-#     d  exact + rewind      none   right        short frames, if the moments of the bounces matter
-#     e  exact + replay      none   right        the truth, in frames of any length
-#
-# Order 1 means that frames of half the length make half the error, and order 2 that they make a
-# quarter. Methods d and e have no order: where they are right, their only error is round-off. The
-# energy is told for a car that bounces on the wall to which it is accelerated, as a ball bounces on
-# a floor. Methods b to e need a constant acceleration. Methods a to d need short frames. In a
-# frame they settle one bounce, and miss it if the car is back on the track when the frame ends
-# (example 18). If a move is longer than the track, they may throw the car out at the other end.
-# Replay is different: it works out the whole frame, from bounce to bounce.
 
 import argparse
 import difflib
 import math
 import os
 import shutil
-import signal
 import sys
 import textwrap
 import time
-from collections import deque
-from contextlib import nullcontext, suppress
-from dataclasses import dataclass, field, fields, replace
-from itertools import pairwise
-from statistics import fmean
-from typing import Any, NamedTuple, TypeVar
+from collections.abc import Iterator
+from contextlib import nullcontext
+from dataclasses import dataclass, fields, replace
+from itertools import pairwise, takewhile
+from statistics import fmean, linear_regression
+from typing import Any, NamedTuple
 
-from examples import CHANGED, EXAMPLES, OWN_SCENE, Example, Keys, NoKeys, taken_keys
+from examples import CHANGED, CHANGED_FRAMES, EXAMPLES, OWN_SCENE, Example, Keys, NoKeys, taken_keys
 
 # ==== 1. Moving =================================================================================
 # Where is the car dt_s later, if there are no walls?
@@ -124,11 +106,12 @@ MOTIONS = {"forward": forward, "backward": backward, "exact": exact}
 #     none       *       |                    0.080      -2.40     1.28
 #     surface    0       *                    0.000      -2.40     2.88
 #     rebound    0       |     *             -0.064      -2.40     4.16
-#     conserve   0       |     *             -0.064      -1.07     1.86
+#     conserve   0       *                    0.000      -1.93     1.86
 #     rewind     0       |    *              -0.048      -1.33     1.86
 #
 # A bounce, at depth 0, keeps the part CR of the speed, so CR^2 of the energy: 0.64 * 2.90 is 1.86.
-# Only conserve and rewind leave the right energy. Only rewind leaves the right place, too.
+# Surface settles the place. Conserve settles the energy, too. Rewind settles the moment, too: only
+# it puts the car where a true car is at the end of this frame.
 #
 # The five corrections of this section take the same four arguments, and return a new depth_m and a
 # new inward_mps. So step() can call any of them.
@@ -142,7 +125,8 @@ def none(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> St
         frame 48   The move ends 3.56 cm deep.   inward_mps changes from  0.85 to -0.51.
     In frame 47 the car was still beyond the wall, because the bounce had slowed it. So its velocity
     was reversed again, now into the wall. The same happens in frame 49, and so on: the car is
-    caught. Such a car is said to stick. The other corrections are there to prevent this.
+    caught, and the acceleration makes it sink. Such a car is said to stick. The other corrections
+    prevent this.
     """
     return depth_m, -CR * inward_mps
 
@@ -150,8 +134,8 @@ def surface(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) ->
     """Put the car on the wall, with its velocity reversed.
 
     If the acceleration points into the wall, surface lifts the car against it. That should cost
-    speed, but surface does not slow the car. So the car has more energy than it should: in the
-    drawn collision 2.88 J/kg instead of 1.86.
+    speed, but surface does not slow the car. So with the exact motion the car has more energy than
+    it should: in the drawn collision 2.88 J/kg instead of 1.86.
     """
     return 0.0, -CR * inward_mps
 
@@ -159,30 +143,23 @@ def rebound(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) ->
     """Put the car in front of the wall, CR * depth away.
 
     Without an acceleration this is right: while the move went on into the wall by the depth, the
-    true car went back, CR times as fast. If the acceleration points into the wall, rebound adds
-    energy, as surface does. If CR * depth is longer than the track, the car is thrown
-    out at the other end (example 14).
+    true car went back, CR times as fast. If the acceleration points into the wall, and the motion
+    is exact, rebound leaves too much energy, as surface does. If CR * depth is longer than the
+    track, the car is thrown out at the other end (example 14).
     """
     return -CR * depth_m, -CR * inward_mps
 
 def conserve(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> State:
-    """Put the car where rebound does, at the speed with which it has the right energy there.
+    """Put the car on the wall, as surface does, but with the speed that the energy allows.
 
-    If this energy is too small to get there, put the car on the wall. With the exact motion the
-    energy is right, and only the moment of the bounce is wrong. The error is of second order: half
-    the dt makes a quarter of it. Like rebound, conserve may throw the car out.
+    With the exact motion the energy is right after each bounce that is found in its frame. Only the
+    moment is wrong: the car leaves the wall at the end of the frame, so up to a frame late.
     """
     # Take the car back to the wall. E does not change, so its speed w there follows from
     # w^2 = v^2 - 2 a depth. This may come out negative: by round-off, if backward has taken too
     # much energy, or if the car started beyond the wall. The bounce leaves the speed CR w.
     w_squared = max(0.0, inward_mps * inward_mps - 2 * inward_mps2 * depth_m)
-    bounced_mps = CR * math.sqrt(w_squared)  # 1.93 m/s in the drawn collision
-    # Take the car to its new place, CR * depth in front of the wall. E does not change, so its
-    # speed s there follows from s^2 = (CR w)^2 - 2 a CR depth.
-    s_squared = bounced_mps * bounced_mps - 2 * inward_mps2 * CR * depth_m
-    if s_squared < 0:
-        return 0.0, -bounced_mps
-    return -CR * depth_m, -math.sqrt(s_squared)
+    return 0.0, -CR * math.sqrt(w_squared)  # 1.93 m/s in the drawn collision
 
 def arrival(d_m: float, u_mps: float, a_mps2: float) -> tuple[float, float]:
     """When will a car be at a wall d_m ahead of it, and how fast? Returns t_s and w_mps.
@@ -205,9 +182,10 @@ def rewind(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> 
 
     With the exact motion this is right if the frame holds one bounce and the move ends beyond the
     wall. So in example 10, where CR is 1, the car comes back to its start each time. Rewind cannot
-    settle a second bounce. If the car turns beyond the wall and is back on the track when the frame
-    ends, no collision is found: a missed event (example 18). If a move goes further beyond the wall
-    than the track is long, rewind may throw the car out, too.
+    settle a second bounce. So a car that should lie still on the wall keeps a velocity into it. In
+    frames of one length this velocity is a dt/(1 + CR). If the car turns beyond the wall and is
+    back on the track when the frame ends, no collision is found: a missed event (example 18). If a
+    move goes further beyond the wall than the track is long, rewind may throw the car out, too.
     """
     # Run the film backwards: the car comes out of the wall. When is it at the wall, and how fast?
     # In this film it moves outwards at the speed inward_mps. An acceleration does not turn round in
@@ -226,62 +204,74 @@ CORRECTIONS = {"none": none, "surface": surface, "rebound": rebound, "conserve":
 ALL_CORRECTIONS = [*CORRECTIONS, "replay"]
 EXACT_ONLY = ["rewind", "replay"]  # they need the exact motion
 
-# ==== 3. The scene and a frame ==================================================================
-# What does a run start from, and how does the car get from one frame to the next?
+# ==== 3. The track and a frame ==================================================================
+# What does the physics need to know, and how does the car get from one frame to the next?
+#
+# First: what may a setting be? The settings of the film (section 5) stand here, too.
 
-Value = TypeVar("Value")
+LIMITS = {  # the least and the largest value
+    "x_m": (-1000, 1000), "v_mps": (-1000, 1000), "a_mps2": (-1000, 1000),
+    "left_edge_m": (-1000, 1000), "right_edge_m": (-1000, 1000), "CR": (0, 1),
+    "fps_target": (0.1, 1000), "jitter": (0, 0.9), "m_to_px": (0.001, 1000), "width_px": (10, 1000)}
+CHOICES = {"motion": list(MOTIONS), "correction": ALL_CORRECTIONS}
 
-def setting(default: Value, meaning: str, **allowed: Any) -> Value:
-    """A setting of a scene: its default, its meaning and what is allowed.
+def allowed_text(name: str) -> str:
+    """What a setting may be, in words."""
+    if name in CHOICES:
+        *others, last = CHOICES[name]
+        return f"{', '.join(others)} or {last}"
+    if name not in LIMITS:
+        return "True or False"
+    least, largest = LIMITS[name]
+    kind = "a whole number" if name == "width_px" else "a number"
+    return f"{kind} from {least} to {largest}"
 
-    It returns a field, of which @dataclass makes the attribute of a Scene. For the type checker it
-    returns the default, as dataclasses.field() does, because the attribute will be of that type.
+def is_allowed(name: str, value: Any) -> bool:
+    """Whether the setting of this name may have this value."""
+    if name in CHOICES:
+        return value in CHOICES[name]
+    if name not in LIMITS:
+        return isinstance(value, bool)
+    least, largest = LIMITS[name]
+    return bool(least <= value <= largest)
 
-    A field of a dataclass may carry metadata: a dictionary that dataclasses keep and do not use.
-    The checks (section 11) and -h find there what is allowed, so it is said only once.
+@dataclass(frozen=True)  # frozen: nothing can change it. replace() makes a changed copy.
+class Track:
+    """The track and its car: all that the physics needs to know.
+
+    Raises ValueError if a setting is not allowed, or if two settings exclude each other.
     """
-    return field(default=default, metadata={"meaning": meaning} | allowed)
 
-YES_OR_NO = [False, True]
-
-@dataclass(frozen=True)  # frozen: no run can change its scene. replace() makes a changed copy.
-class Scene:
-    """The settings of a run. The unit is part of a name: x_m is in m.
-
-    Raises ValueError if a setting is out of its range, or if two settings exclude each other.
-    """
-
-    x_m: float = setting(1.1, "start position in m", least=-1000, largest=1000)
-    v_mps: float = setting(0.0, "start velocity in m/s, to the right", least=-1000, largest=1000)
-    a_mps2: float = setting(0.0, "acceleration in m/s^2, to the right", least=-1000, largest=1000)
-    left_edge_m: float = setting(0.25, "position of the left wall in m", least=-1000, largest=1000)
-    right_edge_m: float = setting(2.2, "position of the right wall in m", least=-1000, largest=1000)
-    CR: float = setting(0.8, "speed after a bounce / before it", least=0, largest=1)
-    motion: str = setting("backward", "how the car is moved", choices=list(MOTIONS))
-    correction: str = setting("rebound", "how a collision is settled", choices=ALL_CORRECTIONS)
-    fps_target: float = setting(30.0, "frames a second; dt = 1/fps_target", least=0.1, largest=1000)
-    use_observed_dt: bool = setting(False, "dt is how long a frame lasted", choices=YES_OR_NO)
-    jitter: float = setting(0.0, "frames last longer or shorter by up to this fraction",
-                            least=0, largest=0.9)
-    auto_off: bool = setting(True, "stop when the car is at rest", choices=YES_OR_NO)
-    m_to_px: float = setting(55.0, "zoom in columns for each m", least=0.001, largest=1000)
-    width_px: int = setting(135, "width of the picture in columns", least=10, largest=1000)
-    show_start_mark: bool = setting(False, "draw a . at the start", choices=YES_OR_NO)
-    show_collision_mark: bool = setting(True, "draw a 0 where a move ended", choices=YES_OR_NO)
-    show_exact_mark: bool = setting(False, "draw an o for the true car", choices=YES_OR_NO)
-    show_methods: bool = setting(False, "draw a to e for five methods", choices=YES_OR_NO)
+    x_m: float = 1.1  # the start of the car
+    v_mps: float = 0.0
+    a_mps2: float = 0.0
+    left_edge_m: float = 0.25  # the left wall
+    right_edge_m: float = 2.2  # the right wall
+    CR: float = 0.8
+    motion: str = "backward"
+    correction: str = "rebound"
 
     def __post_init__(self) -> None:
-        """Refuse a scene that is not allowed. Python calls this when a scene is made."""
-        check(self)  # see section 11
+        """Check the settings. Python calls this when a Track is made."""
+        for each in fields(self):
+            value = getattr(self, each.name)
+            if not is_allowed(each.name, value):
+                raise ValueError(f"{each.name} must be {allowed_text(each.name)}, not {value}")
+        least_m = self.left_edge_m + 0.01
+        if self.right_edge_m < least_m - 1e-9:  # round-off: 0.57 + 0.01 is a little more than 0.58
+            raise ValueError(f"right_edge_m must be {least_m:.10g} or more, which is left_edge_m + "
+                             f"0.01, not {self.right_edge_m}")
+        if self.correction in EXACT_ONLY and self.motion != "exact":
+            raise ValueError(f"correction={self.correction} needs motion=exact, not {self.motion}: "
+                             "choose motion=exact or another correction")
+        if self.correction in EXACT_ONLY and self.x_m != self.to_track(self.x_m):
+            raise ValueError(f"correction={self.correction} needs x_m from {self.left_edge_m} to "
+                             f"{self.right_edge_m}, not {self.x_m}: choose a start between the "
+                             "walls or another correction")
 
     def to_track(self, x_m: float) -> float:
         """The place on the track that is nearest to x_m: x_m itself, or the wall it is beyond."""
         return min(max(x_m, self.left_edge_m), self.right_edge_m)
-
-    def starts_on_track(self) -> bool:
-        """Whether the car starts between the walls, and not beyond one."""
-        return self.left_edge_m <= self.x_m <= self.right_edge_m
 
     def floor_m(self) -> float:
         """The wall to which the car is accelerated. (If a_mps2 is 0, either would do.)"""
@@ -293,47 +283,47 @@ class Scene:
 
 Moved = tuple[float, float, float | None]  # x_m, v_mps, mark_m
 
-def step(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> Moved:
+def step(track: Track, x_m: float, v_mps: float, dt_s: float) -> Moved:
     """Move the car by a frame of dt_s, and settle a collision. Returns x_m, v_mps and mark_m.
 
     mark_m is None or, in a collision, where the move alone ended. The film draws a 0 there.
     """
-    if scene.correction == "replay":
-        return replay(scene, x_m, v_mps, dt_s)  # it works out the whole frame, see section 4
+    if track.correction == "replay":
+        return replay(track, x_m, v_mps, dt_s)  # it works out the whole frame, see section 4
     # Move the car as if there were no walls.
-    move = MOTIONS[scene.motion]
-    free_m, free_mps = move(x_m, v_mps, scene.a_mps2, dt_s)
-    if scene.left_edge_m <= free_m <= scene.right_edge_m:
+    move = MOTIONS[track.motion]
+    free_m, free_mps = move(x_m, v_mps, track.a_mps2, dt_s)
+    if track.left_edge_m <= free_m <= track.right_edge_m:
         return free_m, free_mps, None
     # The move ended beyond a wall. Count from this wall, and into it: at the right wall this is to
     # the right, too, so the signs stay. At the left wall they change.
-    wall_m = scene.to_track(free_m)
+    wall_m = track.to_track(free_m)
     sign = 1 if free_m > wall_m else -1
     depth_m = sign * (free_m - wall_m)
     inward_mps = sign * free_mps
-    inward_mps2 = sign * scene.a_mps2
-    correct = CORRECTIONS[scene.correction]
-    new_depth_m, new_inward_mps = correct(depth_m, inward_mps, inward_mps2, scene.CR)
+    inward_mps2 = sign * track.a_mps2
+    correct = CORRECTIONS[track.correction]
+    new_depth_m, new_inward_mps = correct(depth_m, inward_mps, inward_mps2, track.CR)
     # Count from x = 0 and to the right again.
     return wall_m + sign * new_depth_m, sign * new_inward_mps, free_m
 
 # ==== 4. The truth ==============================================================================
-# What would the car really do?
+# What would the car really do? And which method should I take?
 #
-# The correction replay knows it, for a frame of any length: one step() of 20 s with motion=exact
-# and correction=replay is where the car truly is after 20 s. The film's o, the chart and the map
-# rely on this. So the tests compare it with a reference that is worked out with 60 digits.
+# The correction replay knows the truth, for a frame of any length: one step() of 20 s with
+# motion=exact and correction=replay is where the car truly is after 20 s. The film's o, the chart
+# and the map rely on this. So the tests compare it with a reference that has 60 digits.
 #
 # Think of a ball in a room. The wall to which the car is accelerated is the floor, and the other
 # wall is the ceiling. h is the height of the ball above the floor. The ball flies from bounce to
 # bounce, and arrival() says when each flight ends.
 #
-# At CR < 1 each hop on the floor lasts CR times as long as the hop before. So infinitely many hops
-# take a finite time: if the first hop lasts 1 s, all of them last 1 + CR + CR^2 + ... seconds, and
-# this sum is 1/(1 - CR). The moment at which they end is called the Zeno point. From then on the
-# ball is at rest. Nobody can follow infinitely many hops one by one. So a ball that would rise less
-# than GRAZE_M is at rest here. After a drop from 2 m this is at bounce 55 if CR is 0.8, and at
-# bounce 605 if CR is 0.98.
+# At CR < 1 each hop on the floor lasts CR times as long as the hop before, if the ball does not
+# meet the ceiling. So infinitely many hops take a finite time: if the first hop lasts 1 s, all of
+# them last 1 + CR + CR^2 + ... seconds, and this sum is 1/(1 - CR). The moment at which they end is
+# called the Zeno point. From then on the ball lies still. Nobody can follow infinitely many hops
+# one by one. So a ball that would rise less than GRAZE_M lies still here. After a drop from 2 m
+# this is at bounce 55 if CR is 0.8, and at bounce 605 if CR is 0.98.
 
 GRAZE_M = 5e-11  # far more than the round-off of a position, and less than an atom's width
 
@@ -353,73 +343,140 @@ def next_bounce(h_m: float, rise_mps: float, g_mps2: float,
     flight_s, speed_mps = arrival(h_m, -rise_mps, g_mps2)
     return "floor", flight_s, speed_mps
 
-def replay(scene: Scene, x_m: float, v_mps: float, dt_s: float) -> Moved:
+def replay(track: Track, x_m: float, v_mps: float, dt_s: float) -> Moved:
     """Follow the exact motion for a whole frame, from bounce to bounce, as a ball in a room.
 
     Takes and returns what step() does. Right for a frame of any length.
     """
     # A car that has not turned and is still on the track has met no wall. This quick way out is
     # not needed, but most frames take it, and it is several times as fast.
-    free_m, free_mps = exact(x_m, v_mps, scene.a_mps2, dt_s)
+    free_m, free_mps = exact(x_m, v_mps, track.a_mps2, dt_s)
     has_turned = v_mps * free_mps < 0  # its velocity has changed its sign
-    if scene.left_edge_m <= free_m <= scene.right_edge_m and not has_turned:
+    if track.left_edge_m <= free_m <= track.right_edge_m and not has_turned:
         return free_m, free_mps, None
     # Turn the track into a room. up is the direction away from the floor.
-    up = -1 if scene.a_mps2 > 0 else 1
-    floor_m = scene.floor_m()
-    room_m = scene.right_edge_m - scene.left_edge_m
-    g_mps2 = abs(scene.a_mps2)
-    h_m = up * (scene.to_track(x_m) - floor_m)
+    up = -1 if track.a_mps2 > 0 else 1
+    floor_m = track.floor_m()
+    room_m = track.right_edge_m - track.left_edge_m
+    g_mps2 = abs(track.a_mps2)
+    h_m = up * (track.to_track(x_m) - floor_m)
     rise_mps = up * v_mps
     remaining_s = dt_s  # the part of the frame that is still to come
-    has_bounced = False
-    since_floor_s = math.inf  # how long ago the ball bounced on the floor: not yet in this frame
+    since_floor_s = 0.0  # how long ago the ball met the floor in this frame, if it has
+    has_met_floor = has_met_wall = False
     while rise_mps != 0 or g_mps2 != 0:  # otherwise nothing moves the ball
         wall, flight_s, speed_mps = next_bounce(h_m, rise_mps, g_mps2, room_m)
         if flight_s > remaining_s:
             break  # the frame ends before the ball gets there
         remaining_s -= flight_s
         since_floor_s += flight_s
-        has_bounced = True
+        has_met_wall = True
         if wall == "ceiling":
-            h_m, rise_mps = room_m, -scene.CR * speed_mps
-        else:
-            h_m, rise_mps = 0.0, scene.CR * speed_mps
-            if rise_mps * rise_mps / 2 <= g_mps2 * GRAZE_M:
-                return floor_m, 0.0, free_m  # at rest, as it cannot rise by GRAZE_M
-            if scene.CR == 1:
-                # The ball will be back on the floor after the same time, again and again. Leave out
-                # these times as a whole: what is left over is the remainder of a division.
-                remaining_s = remaining_s % since_floor_s
-            since_floor_s = 0.0
+            h_m, rise_mps = room_m, -track.CR * speed_mps
+            continue
+        h_m, rise_mps = 0.0, track.CR * speed_mps
+        if rise_mps * rise_mps / 2 <= g_mps2 * GRAZE_M:
+            return floor_m, 0.0, free_m  # it lies still, as it cannot rise by GRAZE_M
+        if track.CR == 1 and has_met_floor:
+            # The ball will be back on the floor after the same time, again and again. Leave out
+            # these times as a whole: what is left over is the remainder of a division.
+            remaining_s = remaining_s % since_floor_s
+        has_met_floor = True
+        since_floor_s = 0.0
     h_m, rise_mps = exact(h_m, rise_mps, -g_mps2, remaining_s)
-    x_m = scene.to_track(floor_m + up * h_m)  # round-off must not leave it beyond a wall
-    if not has_bounced:
+    x_m = track.to_track(floor_m + up * h_m)  # round-off must not leave it beyond a wall
+    if not has_met_wall:
         return x_m, up * rise_mps, None
     return x_m, up * rise_mps, free_m
 
-def truth_of(scene: Scene) -> Scene:
-    """The same scene, solved exactly. A start beyond a wall is moved to the wall."""
-    return replace(scene, motion="exact", correction="replay", x_m=scene.to_track(scene.x_m))
+def truth_of(track: Track) -> Track:
+    """The same track, solved exactly. A start beyond a wall is moved to the wall."""
+    return replace(track, motion="exact", correction="replay", x_m=track.to_track(track.x_m))
 
-# These are the five methods of the table at the head of this file. Example 21 and the chart compare
-# them, by their letters.
+class Frame(NamedTuple):
+    """A car and its true car at the end of a frame. mark_m is that of step()."""
+
+    t_s: float
+    x_m: float
+    v_mps: float
+    mark_m: float | None
+    true_m: float
+    true_mps: float
+
+    def error_m(self) -> float:
+        """How far the car is from the true car."""
+        return abs(self.x_m - self.true_m)
+
+class Car:
+    """A car on a track, and beside it its true car. It keeps its frames for film, chart and map."""
+
+    def __init__(self, track: Track) -> None:
+        self.track = track
+        self.truth = truth_of(track)
+        self.frames = [Frame(0.0, track.x_m, track.v_mps, None, self.truth.x_m, self.truth.v_mps)]
+
+    def start_later(self, by_s: float) -> None:
+        """Start where the true car is after this time, and count the time from there."""
+        x_m, v_mps, _ = step(self.truth, self.truth.x_m, self.truth.v_mps, by_s)
+        self.frames = [Frame(0.0, x_m, v_mps, None, x_m, v_mps)]
+
+    def move(self, dt_s: float, count: int = 1) -> None:
+        """Make so many frames of dt_s, and keep the last of them. (The map does not need them all.)
+
+        The true car makes one long step.
+        """
+        last = self.frames[-1]
+        x_m, v_mps, mark_m = last.x_m, last.v_mps, last.mark_m
+        for _ in range(count):
+            x_m, v_mps, mark_m = step(self.track, x_m, v_mps, dt_s)
+        moved_s = count * dt_s
+        true_m, true_mps, _ = step(self.truth, last.true_m, last.true_mps, moved_s)
+        self.frames.append(Frame(last.t_s + moved_s, x_m, v_mps, mark_m, true_m, true_mps))
+
+# Which method should I take? A method is a motion and a correction. Of the fourteen possible ones,
+# example 21 and the chart compare five.
+#
+#     method                 energy       error of the place          take it for
+#     a  backward + rebound  up and down  order 1                     scenery
+#     b  exact + rebound     too much     order 1                     cars without an acceleration
+#     c  exact + conserve    right        order 1: bounces come late  balls in a game
+#     d  exact + rewind      right        none, or order 2 at CR < 1  short frames
+#     e  exact + replay      right        none                        the truth
+#
+# The column of the energy is for a car that bounces on its floor. Order 1 means that frames of half
+# the length make half the error, and order 2 that they make a quarter. Method d has no error while
+# each frame holds at most one bounce. At CR < 1 the last frames before the Zeno point hold several.
+# Without an acceleration a, b, d and e have no error in short frames. Only c has one.
+#
+# Methods a to d need short frames, because they look only at the end of a frame, and settle one
+# bounce there. They miss a bounce if the car is back on the track when the frame ends (example 18).
+# If a move ends further beyond a wall than the track is long, a, b and d may throw the car out at
+# the other end. Methods c and e never do. Method e is right in frames of any length. Methods b to e
+# need a constant acceleration. For a ball between two walls nothing else speaks against e.
 METHODS = {"a": ("backward", "rebound"), "b": ("exact", "rebound"), "c": ("exact", "conserve"),
            "d": ("exact", "rewind"), "e": ("exact", "replay")}
-
-def methods_of(scene: Scene) -> dict[str, Scene]:
-    """The same scene with each of the five methods, by their letters."""
-    scenes = {}
-    for letter, (motion, correction) in METHODS.items():
-        scenes[letter] = replace(scene, motion=motion, correction=correction)
-    return scenes
 
 def method_text(motion: str, correction: str) -> str:
     """A method in words, as in backward + rebound."""
     return f"{motion} + {correction}"
 
 # ==== 5. Drawing ================================================================================
-# How does a frame become a line of text, and how is a scene told in words?
+# How does a frame become a line of text?
+
+@dataclass(frozen=True)
+class Scene(Track):
+    """A track, and how it is filmed. (MEANINGS in section 11 says what each setting means.)"""
+
+    fps_target: float = 30.0
+    use_observed_dt: bool = False
+    jitter: float = 0.0
+    auto_off: bool = True
+    m_to_px: float = 55.0
+    width_px: int = 135
+    show_start_mark: bool = False
+    show_collision_mark: bool = True
+    show_exact_mark: bool = False
+    show_methods: bool = False
 
 def render_track(scene: Scene, places_m: dict[str, float], mark_m: float | None) -> str:
     """Draw a frame: one line of scene.width_px columns. places_m has the cars by their marks.
@@ -487,32 +544,21 @@ def fitted(scene: Scene, has_details: bool) -> Scene:
 
 PYTHON = os.path.basename(sys.executable).removesuffix(".exe")  # python3 where there is no python
 
-def start_text(scene: Scene) -> str:
-    """Car and track, by the names that one may type. (A number may have ten digits.)"""
-    return (f"x_m={scene.x_m:.10g} v_mps={scene.v_mps:.10g} a_mps2={scene.a_mps2:.10g} "
-            f"CR={scene.CR:.10g}, walls at {scene.left_edge_m:.10g} and "
-            f"{scene.right_edge_m:.10g} m")
-
-def scene_text(scene: Scene) -> str:
-    """The scene without its drawing. Cars whose scenes have the same text move alike."""
-    method = method_text(scene.motion, scene.correction)
-    text = f"{start_text(scene)}; {method}, {scene.fps_target:.10g} FPS"
-    if scene.jitter > 0:
-        text += f", jitter={scene.jitter:.10g}"
-    if scene.use_observed_dt:
-        text += ", use_observed_dt=True"
-    if not scene.starts_on_track():
-        text += "; it starts beyond a wall"
-    return text
-
 def say(text: str) -> None:
     """Print a paragraph, as wide as the terminal but no wider than is good to read."""
     width = min(100, shutil.get_terminal_size().columns)
     print(textwrap.fill(text, width), flush=True)
 
+def track_text(track: Track) -> str:
+    """Car and track, by the names that one may type. (A number may have ten digits.)"""
+    return (f"x_m={track.x_m:.10g} v_mps={track.v_mps:.10g} a_mps2={track.a_mps2:.10g} "
+            f"CR={track.CR:.10g}, walls at {track.left_edge_m:.10g} and "
+            f"{track.right_edge_m:.10g} m")
+
 # ==== 6. The run ================================================================================
-# How do the frames become a film that runs at the right speed?
-# What happened to the cars? The main loop is run(), at the end of this section.
+# How do the frames become a film that runs at the right speed? What happened to the cars?
+# The main loop is run(). What is told after the film is worked out after the film, from the frames
+# that each car has kept.
 
 def planned_length(scene: Scene, frame: int) -> float:
     """How long this frame should last, in s. With jitter, frames are irregular in a fixed way."""
@@ -522,329 +568,205 @@ def planned_length(scene: Scene, frame: int) -> float:
     from_minus_1_to_1 = 2 * from_0_to_1 - 1
     return (1 + scene.jitter * from_minus_1_to_1) / scene.fps_target
 
-def planned_dt(scene: Scene, frame: int) -> float:
-    """The time step of a frame that lasts as long as planned, in s."""
-    if scene.use_observed_dt:
-        return planned_length(scene, frame)
-    return 1 / scene.fps_target
-
-def frame_settings(scene: Scene) -> tuple[float, float, bool]:
-    """The settings on which the time steps depend."""
-    return scene.fps_target, scene.jitter, scene.use_observed_dt
-
 STALL_S = 0.15  # a delay that everybody sees: people begin to notice one at about 0.1 s
 
-class Pace:
-    """The pace of a film: when is the next frame due, and how long did it take to come?"""
+def paced(scene: Scene, keys: Keys | NoKeys, max_frames: int) -> Iterator[tuple[float, float]]:
+    """Wait until each frame is due, and give its dt_s and the observed frame rate.
 
-    def __init__(self, scene: Scene, keys: Keys | NoKeys) -> None:
-        self.scene = scene
-        self.keys = keys
-        # Begin as if the time of frame 1 had just passed. So frame 1 is due now.
-        self.shown_s = time.perf_counter() - planned_length(scene, 1)  # when the last frame came
-        self.due_s = self.shown_s  # when it was due
+    This is a generator: run() loops over it, and each yield gives the loop the next frame.
 
-    def wait(self, frames: int, t_s: float) -> tuple[float, float]:
-        """Wait until the next frame is due. frames and t_s say how far the film is.
-
-        Returns dt_s, the time step for this frame, and the frame rate that was observed.
-
-        The frames are due at planned moments. If each frame slept for dt instead, it would last
-        longer than dt, because computing and printing take time, too.
-        """
-        planned_s = planned_length(self.scene, frames + 1)
-        self.due_s += planned_s
-        was_timed = self.keys.wait_until(self.due_s, frames, t_s)  # False after a pause
+    The frames are due at planned moments. If each frame slept for dt instead, it would last longer
+    than dt, because computing and printing take time, too.
+    """
+    # Begin as if the time of frame 1 had just passed. So frame 1 is due now.
+    due_s = shown_s = time.perf_counter() - planned_length(scene, 1)
+    t_s = 0.0
+    for frame in range(1, max_frames + 1):
+        planned_s = planned_length(scene, frame)
+        due_s += planned_s
+        was_timed = keys.wait_until(due_s, frame - 1, t_s)  # False after a pause
+        if keys.why_quit:
+            return
         now_s = time.perf_counter()
-        lasted_s = now_s - self.shown_s
-        self.shown_s = now_s
-        fps = self.scene.fps_target
+        lasted_s = now_s - shown_s
+        shown_s = now_s
+        fps = scene.fps_target
         if was_timed:
             fps = 1 / max(lasted_s, 1e-6)  # the clock may not have ticked in between
         # After a pause, or if the film is far behind its plan, the plan begins anew from now.
         # Otherwise the film would race to catch up.
-        if not was_timed or now_s > self.due_s + STALL_S:
-            self.due_s = now_s
+        if not was_timed or now_s > due_s + STALL_S:
+            due_s = now_s
         # A frame with a pause or a stall counts as long as planned. Otherwise the car would leap.
-        was_disturbed = not was_timed or lasted_s > planned_s + STALL_S
-        if self.scene.use_observed_dt and not was_disturbed:
-            return lasted_s, fps
-        return planned_dt(self.scene, frames + 1), fps
+        if not scene.use_observed_dt:
+            dt_s = 1 / scene.fps_target
+        elif was_timed and lasted_s <= planned_s + STALL_S:
+            dt_s = lasted_s
+        else:
+            dt_s = planned_s
+        t_s += dt_s
+        yield dt_s, fps
 
-REST_M = 0.001  # 1 mm: less than a column in every example
+REST_M = 0.003  # much less than a column
+REST_S = 0.3  # long enough to be seen
+REST_FRAMES = 10  # at a low frame rate 0.3 s may be a single frame
 
-class Car:
-    """A car of the film: where it is, where it truly should be, and what has happened to it."""
+def rest_began_s(car: Car) -> float | None:
+    """Since when the car is at rest, or None if it is not.
 
-    def __init__(self, scene: Scene, truth: "Car | None" = None) -> None:
-        """truth is the true car of the same scene. Without one, this car is the true car itself."""
-        self.scene = scene
-        self.truth = self if truth is None else truth
-        self.x_m, self.v_mps = scene.x_m, scene.v_mps
-        self.mark_m: float | None = None  # where its last move ended, if it met a wall
-        self.frames, self.t_s = 0, 0.0
-        self.is_drawn = True  # a car that nobody sees keeps nothing for the table after the film
-        self.collisions: list[int] = []  # the frames in which it met a wall
-        self.most_off_m = 0.0  # how far it was at most from the true car
-        self.energy = scene.energy(self.x_m, self.v_mps)  # in J/kg
-        self.first_energy = self.least_energy = self.most_energy = self.energy
-        # Whether a car rests is asked of its last frames. The frames of 1/3 s are enough to see it.
-        # But ask ten frames at least, because a car in flight may be near a wall for some frames,
-        # too. A deque with a maxlen forgets its oldest item when a new one comes.
-        self.rest_frames = max(10, round(scene.fps_target / 3))
-        self.last: deque[tuple[float, float]] = deque(maxlen=self.rest_frames)  # t_s and x_m
-        self.rest_began_s: float | None = None  # since when it is at rest, if it is
-
-    def move(self, dt_s: float) -> None:
-        """Make a frame of dt_s. The true car must have made it already."""
-        self.x_m, self.v_mps, self.mark_m = step(self.scene, self.x_m, self.v_mps, dt_s)
-        self.frames += 1
-        self.t_s += dt_s
-        if self.is_drawn:
-            self.keep()
-
-    def keep(self) -> None:
-        """Keep what is told after the film."""
-        if self.mark_m is not None:
-            self.collisions.append(self.frames)
-        self.most_off_m = max(self.most_off_m, abs(self.x_m - self.truth.x_m))
-        self.energy = self.scene.energy(self.x_m, self.v_mps)
-        self.least_energy = min(self.least_energy, self.energy)
-        self.most_energy = max(self.most_energy, self.energy)
-        self.last.append((self.t_s, self.x_m))
-        if not self.is_at_rest():
-            self.rest_began_s = None
-        elif self.rest_began_s is None and self.lies_still():
-            self.rest_began_s = self.t_s  # it has come to rest in this frame
-        elif self.rest_began_s is None:
-            self.rest_began_s, _ = self.last[0]  # it has rested through all of the last frames
-
-    def lies_still(self) -> bool:
-        """Whether it lies exactly on the wall to which it is accelerated, with v = 0."""
-        has_floor = self.scene.a_mps2 != 0
-        return has_floor and self.v_mps == 0 and self.x_m == self.scene.floor_m()
-
-    def has_last_frames(self) -> bool:
-        """Whether there are enough frames to ask."""
-        return len(self.last) == self.rest_frames
-
-    def is_at_rest(self) -> bool:
-        """Whether it rests on its floor or, without an acceleration, does not move at all."""
-        if self.lies_still():
-            return True
-        if not self.has_last_frames():
-            return False
-        scene = self.scene
-        if scene.a_mps2 == 0:
-            _, first_m = self.last[0]
-            return self.v_mps == 0 and self.x_m == first_m
-        if scene.correction == "replay":
-            return False  # a true car that does not lie still hops, however low
-        # Other methods may never leave the car quite still. So it is enough that its mean distance
-        # from the floor is small, and its speed no larger than what it could gain in these frames.
-        floor_m = scene.floor_m()
-        if abs(self.x_m - floor_m) > REST_M * self.rest_frames:
-            return False  # the quick way out: this distance alone makes the mean too large
-        gained_mps = abs(scene.a_mps2) * self.rest_frames / scene.fps_target
-        if abs(self.v_mps) > gained_mps:
-            return False
-        return fmean([abs(x_m - floor_m) for _, x_m in self.last]) <= REST_M
-
-    def is_beyond_a_wall(self) -> bool:
-        """Whether it was beyond a wall in all of the last frames, not only after a bounce."""
-        are_beyond = [x_m != self.scene.to_track(x_m) for _, x_m in self.last]
-        return self.has_last_frames() and all(are_beyond)
-
-class UnchangedCar(Car):
-    """The + of a changed example: the car of the example as it is, in frames of its own.
-
-    The film does not know its true car. So move() moves both.
+    A car is at rest if in each frame, for 0.3 s and ten frames, it is on the track, and its energy
+    is too small to rise 3 mm above its floor. A method may leave it the speed a dt that a single
+    frame gives, so this speed does not count. (Without an acceleration the speed must be 0.)
     """
+    track = car.track
+    now_s = began_s = car.frames[-1].t_s
+    quiet_frames = 0
+    for frame, frame_before in pairwise(reversed(car.frames)):  # from the last frame back
+        frame_mps = track.a_mps2 * (frame.t_s - frame_before.t_s)
+        most_energy = abs(track.a_mps2) * REST_M + frame_mps * frame_mps / 2
+        is_on_track = frame.x_m == track.to_track(frame.x_m)
+        if not is_on_track or track.energy(frame.x_m, frame.v_mps) > most_energy:
+            break
+        began_s = frame.t_s
+        quiet_frames += 1
+    lasted_s = now_s - began_s + 1e-9  # round-off: nine frames of 1/30 s may be less than 0.3 s
+    if quiet_frames < REST_FRAMES or lasted_s < REST_S:
+        return None
+    return began_s
 
-    def __init__(self, scene: Scene, film_scene: Scene) -> None:
-        super().__init__(scene, Car(truth_of(scene)))
-        self.truth.is_drawn = False
-        self.has_film_frames = frame_settings(scene) == frame_settings(film_scene)
-        self.behind_s = 0.0  # how far it is behind the film
-
-    def move(self, dt_s: float) -> None:
-        """Make the frames that end in the next dt_s of the film: one, many or none."""
-        if self.has_film_frames:
-            self.move_both(dt_s)
-            return
-        self.behind_s += dt_s
-        own_s = planned_dt(self.scene, self.frames + 1)
-        while own_s < self.behind_s + 1e-9:  # round-off: ten frames of 0.1 s are nearly 1 s
-            self.behind_s -= own_s
-            self.move_both(own_s)
-            own_s = planned_dt(self.scene, self.frames + 1)
-
-    def move_both(self, dt_s: float) -> None:
-        """Make a frame with the car and its true car."""
-        self.truth.move(dt_s)
-        super().move(dt_s)
+def is_beyond_a_wall(car: Car) -> bool:
+    """Whether the car was beyond a wall in all of its last ten frames, not only after a bounce."""
+    last = car.frames[-10:]
+    return all(frame.x_m != car.track.to_track(frame.x_m) for frame in last)
 
 def cars_of(scene: Scene, unchanged: Scene | None) -> dict[str, Car]:
     """All cars that a film draws, by their marks, from back to front.
 
-    unchanged is the example as it is, if the user changed it.
+    unchanged is the example as it is, if the film shows a + for it.
     """
-    true_car = Car(truth_of(scene))
     cars = {}
     if scene.show_methods:
-        for letter, method in methods_of(true_car.scene).items():
-            cars[letter] = Car(method, true_car)
+        for letter, (motion, correction) in METHODS.items():
+            cars[letter] = Car(replace(truth_of(scene), motion=motion, correction=correction))
     if scene.show_exact_mark:
-        cars["o"] = true_car
+        cars["o"] = Car(truth_of(scene))
     if unchanged is not None:
-        cars["+"] = UnchangedCar(unchanged, scene)
-    if scene == true_car.scene:
-        cars["*"] = true_car
-    else:
-        cars["*"] = Car(scene, true_car)
-    true_car.is_drawn = true_car in cars.values()
+        cars["+"] = Car(unchanged)
+    cars["*"] = Car(scene)
     return cars
 
-def number_text(number: float) -> str:
-    """A number with up to four significant digits, or 0 if it is smaller than a thousandth."""
-    if abs(number) < 0.001:
-        return "0"
-    return f"{number:.4g}"
+def energy_text(energy: float) -> str:
+    """An energy with up to four significant digits."""
+    if energy != 0 and abs(energy) < 0.001:
+        return "<0.001"
+    return f"{energy:.4g}"
 
-def off_text(car: Car) -> str:
-    """How far the car was at most from its true car."""
-    if car.most_off_m < 0.001:
-        return "under 1 mm"
-    return f"{number_text(car.most_off_m)} m"
-
-def hops_text(collisions: list[int]) -> str:
+def hops_text(car: Car) -> str:
     """How many frames there are from bounce to bounce: the first four and the last two."""
-    hops = [str(after - before) for before, after in pairwise(collisions)]
+    bounces = [number for number, frame in enumerate(car.frames) if frame.mark_m is not None]
+    hops = [str(after - before) for before, after in pairwise(bounces)]
     if len(hops) > 6:
         hops = [*hops[:4], "...", *hops[-2:]]
     return " ".join(hops)
 
 def end_text(car: Car) -> str:
     """What the car does at the end of the film."""
-    if car.rest_began_s is not None:
-        return f"rests from {car.rest_began_s:.2f} s"
-    if car.is_beyond_a_wall():
+    began_s = rest_began_s(car)
+    if began_s is not None:
+        return f"at rest from {began_s:.2f} s on"
+    if is_beyond_a_wall(car):
         return "is beyond a wall"
     return "still moves"
+
+def table_row(mark: str, car: Car) -> str:
+    """A car's row of the table: its method, how far off it was, and its energies."""
+    if mark == "o":
+        row = f"{'o the truth':35}"
+    else:
+        furthest_m = max(frame.error_m() for frame in car.frames)
+        off = "under 1 mm" if furthest_m < 0.001 else f"{furthest_m:.4g} m"
+        row = f"{mark} {method_text(car.track.motion, car.track.correction):20}{off:>13}"
+    energies = [car.track.energy(frame.x_m, frame.v_mps) for frame in car.frames]
+    for energy in (energies[0], min(energies), max(energies), energies[-1]):
+        row += energy_text(energy).rjust(11)
+    return row
 
 def tell_cars(cars: dict[str, Car]) -> None:
     """Print a table with a row for each car, and a line for its hops and its end."""
     marks = [mark for mark in "*+oabcde" if mark in cars]
     print()
-    print("                      furthest from     energy in J/kg")
-    print("                      its own truth      first      least       most       last")
+    print("                      furthest from    energy in J/kg")
+    print("                     its own truth      first      least       most       last")
     for mark in marks:
-        car = cars[mark]
-        name = method_text(car.scene.motion, car.scene.correction)
-        off = off_text(car)
-        if mark == "o":
-            name, off = "the truth", ""
-        row = f"{mark} {name:20}{off:>13}"
-        for energy in (car.first_energy, car.least_energy, car.most_energy, car.energy):
-            row += number_text(energy).rjust(11)
-        print(row)
-    print("Energy 0 is rest on the wall to which a points. Below 0 the car is beyond it.")
+        print(table_row(mark, cars[mark]))
+    print("Energy 0: it lies on the wall to which it is accelerated. Below 0: beyond it.")
+    print("Two cars on the track cannot be further apart than the track is long.")
     print("The hops in frames, each from one bounce to the next, and the end:")
     for mark in marks:
-        car = cars[mark]
-        row = f"{mark} at {car.scene.fps_target:.4g} FPS: "
-        if len(car.collisions) > 1:
-            row += hops_text(car.collisions) + "; "
-        print(row + end_text(car))
+        words = [hops_text(cars[mark]), end_text(cars[mark])]
+        print(mark, "; ".join([text for text in words if text]))
+    print("At rest: through 0.3 s and ten frames it has too little energy to rise 3 mm.")
 
-def run(cars: dict[str, Car], view: Scene, has_details: bool, max_frames: int,
+def run(cars: dict[str, Car], scene: Scene, view: Scene, has_details: bool, max_frames: int,
         keys: Keys | NoKeys) -> None:
     """Show the film until a key, the car at rest or max_frames ends it, and say which it was.
 
     view is the scene as it is drawn: in a narrow terminal it is smaller.
     """
     car = cars["*"]
-    scene = car.scene
-    pace = Pace(scene, keys)
-    others = [each for each in cars.values() if each is not car.truth]
-    moving = [car.truth, *others]  # the true car first, as the others are compared with it
-    while True:
-        # Wait until the next frame is due.
-        dt_s, fps = pace.wait(car.frames, car.t_s)
-        if keys.why_quit:
-            why = keys.why_quit
-            break
+    why = "that is the frame limit"
+    for dt_s, fps in paced(scene, keys, max_frames):
         # Move the cars, and settle their collisions.
-        for each in moving:
+        for each in cars.values():
             each.move(dt_s)
         # Draw the frame.
-        places_m = {mark: each.x_m for mark, each in cars.items()}
-        line = render_track(view, places_m, car.mark_m)
+        places_m = {mark: each.frames[-1].x_m for mark, each in cars.items()}
+        now = car.frames[-1]
+        line = render_track(view, places_m, now.mark_m)
         if keys.has_colours:
             line = line.translate(COLOURED_MARKS)
         if has_details:
-            line += details_text(car.x_m, car.v_mps, fps, places_m.get("o"))
+            line += details_text(now.x_m, now.v_mps, fps, places_m.get("o"))
         print(line)
         # Is it over?
-        if scene.auto_off and car.rest_began_s is not None:
+        if scene.auto_off and rest_began_s(car) is not None:
             why = "the car is at rest"
             break
-        if car.frames >= max_frames:
-            why = "that is the frame limit"
-            break
-    print(f"Stopped after {car.frames} frames, t = {car.t_s:.2f} s: {why}.", flush=True)
+    if keys.why_quit:
+        why = keys.why_quit
+    frames, t_s = len(car.frames) - 1, car.frames[-1].t_s
+    print(f"Stopped after {frames} frames, t = {t_s:.2f} s: {why}.", flush=True)
 
 # ==== 7. The chart: speed against accuracy ======================================================
-# What does each method cost, and how wrong is it? A drawn pixel is a column of the film: 1/m_to_px
-# wide, in m.
+# What does each method cost, and how wrong is it? A column of the film is 1/m_to_px wide, in m.
 
 SPAN_S = 20  # of simulated time: about eight bounces in example 10, enough for errors to grow
 CUTS = 10  # runs of each method: with fewer, the largest error would depend on luck
-CHART_FPS = [10, 30, 60, 120, 240, 480, 960, 1920, 3840]
+CHART_FPS = [10, 30, 60, 120, 240, 480, 960]
 
-class Sample(NamedTuple):
-    """A car and the true car at the same moment."""
-
-    x_m: float
-    v_mps: float
-    true_m: float
-    true_mps: float
-
-def simulate(scene: Scene, fps: int, cut: int) -> list[Sample]:
-    """Run for SPAN_S. Take a sample every 0.1 s or, if frames are longer, every frame.
+def simulate(track: Track, fps: int, cut: int, count: int) -> list[Frame]:
+    """Run for SPAN_S, and keep each count-th frame.
 
     It is luck at which moment of a frame the car meets a wall. So there are ten cuts of the same
     motion into frames. Cut 0 begins at the start of the scene. Each other cut begins a part of a
     frame later, at the true state of that moment.
     """
-    dt_s = 1 / fps
-    truth = truth_of(scene)
-    part = 0.0  # of a frame
-    if cut > 0:
-        # Nine parts, 1/9 of a frame apart: 1/27, 4/27, 7/27, ... 25/27. None of them is at the edge
-        # of a frame, because a run from there would be cut 0 again.
-        part = (cut - 2 / 3) / (CUTS - 1)
-    true_m, true_mps, _ = step(truth, truth.x_m, truth.v_mps, part * dt_s)
-    x_m, v_mps = true_m, true_mps
-    frames_a_sample = max(1, fps // 10)
-    samples = []
-    for _ in range(SPAN_S * fps // frames_a_sample):
-        for _ in range(frames_a_sample):
-            x_m, v_mps, _ = step(scene, x_m, v_mps, dt_s)
-        # One step of any length gives the truth. So the true car takes a single, longer step.
-        true_m, true_mps, _ = step(truth, true_m, true_mps, frames_a_sample * dt_s)
-        samples.append(Sample(x_m, v_mps, true_m, true_mps))
-    return samples
+    car = Car(track)
+    # With eleven parts for ten cuts, no cut begins a whole frame later. That would be cut 0 again.
+    car.start_later(cut / (CUTS + 1) / fps)
+    for _ in range(SPAN_S * fps // count):
+        car.move(1 / fps, count)
+    return car.frames
 
-def largest_error_m(scene: Scene, fps: int) -> float:
-    """The largest distance from the true car in all samples of all cuts."""
+def largest_error_m(track: Track, fps: int) -> float:
+    """The largest distance from the true car in all frames of all cuts."""
     largest_m = 0.0
     for cut in range(CUTS):
-        for sample in simulate(scene, fps, cut):
-            largest_m = max(largest_m, abs(sample.x_m - sample.true_m))
+        for frame in simulate(track, fps, cut, 1):
+            largest_m = max(largest_m, frame.error_m())
     return largest_m
 
-def cost_us(scene: Scene, fps: int) -> float:
+def cost_us(track: Track, fps: int) -> float:
     """How long the steps of a simulated second take, in microseconds.
 
     Other programs may slow this one, and nothing can speed it up. So the least of several runs is
@@ -854,10 +776,10 @@ def cost_us(scene: Scene, fps: int) -> float:
     costs_s = []
     runs = max(5, 200 // fps)  # at a low rate a run is short, so one disturbance may spoil it
     for _ in range(runs):
-        x_m, v_mps = scene.x_m, scene.v_mps
+        x_m, v_mps = track.x_m, track.v_mps
         began_s = time.perf_counter()
         for _ in range(SPAN_S * fps):
-            x_m, v_mps, _ = step(scene, x_m, v_mps, dt_s)
+            x_m, v_mps, _ = step(track, x_m, v_mps, dt_s)
         costs_s.append(time.perf_counter() - began_s)
     return 1e6 * min(costs_s) / SPAN_S
 
@@ -868,7 +790,7 @@ class Point(NamedTuple):
     error_m: float
     cost_us: float
 
-def measure(scene: Scene) -> dict[str, list[Point]]:
+def measure(track: Track) -> dict[str, list[Point]]:
     """Measure every method at every rate, and print the table row by row."""
     motions = "".join([f"{letter}: {motion}".rjust(15) for letter, (motion, _) in METHODS.items()])
     corrections = "".join([f"+ {correction}".rjust(15) for _, correction in METHODS.values()])
@@ -879,26 +801,33 @@ def measure(scene: Scene) -> dict[str, list[Point]]:
     points: dict[str, list[Point]] = {letter: [] for letter in METHODS}
     for fps in CHART_FPS:
         row = f"{fps:4}"
-        for letter, method in methods_of(scene).items():
+        for letter, (motion, correction) in METHODS.items():
+            method = replace(track, motion=motion, correction=correction)
             point = Point(fps, largest_error_m(method, fps), cost_us(method, fps))
             points[letter].append(point)
             row += f"{point.error_m:9.1e}{point.cost_us:6.0f}"
         print(row, flush=True)
-    orders = "".join([order_text(series).rjust(7) + " " * 8 for series in points.values()])
-    print("order" + orders.rstrip())
+    track_m = track.right_edge_m - track.left_edge_m
+    orders = [order_text(series, track_m).rjust(7) + " " * 8 for series in points.values()]
+    print("order" + "".join(orders).rstrip())
     print()
     return points
 
-def order_text(series: list[Point]) -> str:
-    """The order of a method, from the last three doublings of the rate.
+ROUND_OFF_M = 1e-9  # smaller errors have no order
 
-    At order 1 twice the rate divides the error by 2, at order 2 by 4.
-    """
-    last_m = series[-1].error_m
-    if last_m < 1e-8:  # this is round-off, which has no order
+def order_text(series: list[Point], track_m: float) -> str:
+    """The order of a method: at order 1 twice the rate divides the error by 2, at order 2 by 4."""
+    if all(point.error_m < ROUND_OFF_M for point in series):
         return "none"
-    doublings = math.log2(series[-4].error_m / last_m)
-    return f"{doublings / 3:.1f}"
+    # An error of a tenth of the track hardly grows any more. So it tells nothing of the order.
+    telling = [point for point in series if ROUND_OFF_M <= point.error_m < track_m / 10]
+    if len(telling) < 3:
+        return "?"  # too few for a straight line
+    # error = constant / rate^order. So in logarithms the order is the slope of a straight line.
+    rates = [math.log(point.fps) for point in telling]
+    errors = [math.log(point.error_m) for point in telling]
+    slope, _ = linear_regression(rates, errors)
+    return f"{-slope:.1f}"
 
 COLUMNS_A_DECADE, ROWS_A_DECADE = 8, 4  # a decade is from one power of ten to the next
 LEAST_ERROR_M, LARGEST_ERROR_M = 1e-6, 10.0  # other errors are drawn at the edge of the picture
@@ -909,7 +838,7 @@ def error_column(error_m: float) -> int:
     error_m = min(error_m, LARGEST_ERROR_M)
     return round(COLUMNS_A_DECADE * math.log10(error_m / LEAST_ERROR_M))
 
-def picture(points: dict[str, list[Point]], pixel_m: float) -> None:
+def picture(points: dict[str, list[Point]], column_m: float) -> None:
     """Draw the points as the film is drawn: error to the right, cost downwards."""
     letters: dict[tuple[int, int], str] = {}  # by row and column
     for letter, series in points.items():
@@ -921,31 +850,31 @@ def picture(points: dict[str, list[Point]], pixel_m: float) -> None:
             else:
                 letters[place] = letter
     rows = [row for row, _ in letters]
-    pixel_column = error_column(pixel_m)
-    print("one drawn pixel |".rjust(10 + pixel_column + 1))
+    limit = error_column(column_m)
+    print("a column of the film |".rjust(10 + limit + 1))
     print("    us    <=1 um  10 um   0.1 mm  1 mm    1 cm    0.1 m   1 m     >=10 m")
     for row in range(min(rows), max(rows) + 1):
         line = f"{10 ** (row / ROWS_A_DECADE):6.0f}    "
         for column in range(error_column(LARGEST_ERROR_M) + 1):
-            behind = "|" if column == pixel_column else " "
+            behind = "|" if column == limit else " "
             line += letters.get((row, column), behind)
         print(line.rstrip())
     print()
 
-def conclude(points: dict[str, list[Point]], pixel_m: float) -> None:
-    """Answer the question: which methods stay within a pixel, and what do they cost?"""
+def conclude(points: dict[str, list[Point]], column_m: float) -> None:
+    """Answer the question: which methods stay within a column, and what do they cost?"""
     answers = []
     for letter, (motion, correction) in METHODS.items():
-        name = method_text(motion, correction)
-        answer = None
-        for fps, error_m, us in reversed(points[letter]):
-            if error_m > pixel_m:
-                break  # no lower rate counts
-            answer = us, f"  {letter}  {name:18}  from {fps:4} FPS on  {us:5.0f} us"
-        if answer is not None:
-            answers.append(answer)
+        # From the highest rate down, as long as the error is small enough.
+        good = list(takewhile(lambda point: point.error_m <= column_m, reversed(points[letter])))
+        if good:
+            cheapest = good[-1]
+            text = f"  {letter}  {method_text(motion, correction):18}  "
+            text += f"from {cheapest.fps:4} FPS on  {cheapest.cost_us:5.0f} us"
+            answers.append((cheapest.cost_us, text))
     answers.sort()  # by the cost, which stands first
-    say(f"These stay within a drawn pixel ({pixel_m:.2g} m) in all ten runs, the cheapest first:")
+    say(f"These stay within a column of the film ({column_m:.2g} m) in all ten runs, "
+        "the cheapest first:")
     for _, text in answers:
         print(text)
     if not answers:
@@ -953,63 +882,66 @@ def conclude(points: dict[str, list[Point]], pixel_m: float) -> None:
 
 def chart(scene: Scene, title: str) -> None:
     """Measure, print the table, draw the picture and answer the question."""
-    pixel_m = 1 / scene.m_to_px
+    column_m = 1 / scene.m_to_px
     say(f"Speed against accuracy. {title}")
-    say("Which method is the cheapest that stays within a drawn pixel of the truth? Each method "
-        "runs ten times for 20 simulated seconds. Error: the largest distance from the true car in "
-        "these runs, looked at every 0.1 s. Cost: the time that a simulated second takes, in us "
-        "(microseconds). Order: 1 if half the dt makes half the error, 2 if it makes a quarter. "
-        "Method e is the truth's own method, so its error can be nothing but round-off.")
+    say("Which method is the cheapest that stays within a column of the film? Each method runs ten "
+        "times for 20 simulated seconds. Error: the largest distance from the true car. Cost: the "
+        "time that a simulated second takes, in us (microseconds). Order: 1 if half the dt makes "
+        "half the error, 2 if it makes a quarter, ? if fewer than three errors are below a tenth "
+        "of the track, none if there is only round-off. Method e is how the true car is moved, so "
+        "its error is 0.")
     points = measure(scene)
-    picture(points, pixel_m)
+    picture(points, column_m)
     legend = [f"{letter}: {method_text(*method)}" for letter, method in METHODS.items()]
     say(f"{', '.join(legend)}. Error to the right, cost downwards: the best are in the upper left. "
         "Where letters meet there is a +.")
-    conclude(points, pixel_m)
+    conclude(points, column_m)
     say(f"Next: {PYTHON} airtrack.py stability")
 
 # ==== 8. The map: where methods fail ============================================================
 # Which method fails at which frame rate, and how?
 
+HOP_M = 0.001  # 1 mm: a car that hops no higher counts as one that lies still
 MAP_FPS = [1, 2, 5, 10, 30, 60, 120, 240, 1000]
 VERDICTS = {  # from the worst to the best. W is not for one run, but for ten: see cell().
     "X": "out: further beyond a wall than the track is long",
     "S": "stuck: beyond the same wall all through the last 5 s",
-    "H": "hops or hovers, over 1 mm off in the last 5 s, although the true car rests",
+    "H": "hops or hovers, over 1 mm off in the last 5 s, where the true car lies still",
     "W": "as G in some runs, as L in others",
-    "G": "over a pixel off and, on average in the last 5 s, over 1 % too much energy",
-    "L": "over a pixel off and, on average in the last 5 s, over 1 % too little energy",
-    "P": "over a pixel off, but with the right energy",
-    "-": "within a drawn pixel of the truth",
+    "G": "over a column off and, on average in the last 5 s, over 1 % too much energy",
+    "L": "over a column off and, on average in the last 5 s, over 1 % too little energy",
+    "P": "over a column of the film off, but with the right energy",
+    "-": "within a column of the truth",
 }
 FROM_WORST_TO_BEST = list(VERDICTS)
 
-def verdict(scene: Scene, fps: int, cut: int) -> str:
+def verdict(track: Track, column_m: float, fps: int, cut: int) -> str:
     """The letter of one run: X, S, H, G, L, P or -. (W needs several runs.)"""
-    samples = simulate(scene, fps, cut)
-    late = len(samples) * 3 // 4  # here begin the samples of the last 5 of 20 s
-    track_m = scene.right_edge_m - scene.left_edge_m
+    frames = simulate(track, fps, cut, max(1, fps // 10))  # a frame every 0.1 s
+    late = frames[len(frames) * 3 // 4:]  # the last 5 of 20 s
+    track_m = track.right_edge_m - track.left_edge_m
     # X: how far beyond a wall was the car?
     # (Positive numbers are beyond the right wall, negative ones beyond the left wall.)
-    beyond_m = [sample.x_m - scene.to_track(sample.x_m) for sample in samples]
+    beyond_m = [frame.x_m - track.to_track(frame.x_m) for frame in frames]
     if max(beyond_m) > track_m or min(beyond_m) < -track_m:
         return "X"
     # S: was it beyond the same wall all through the last 5 s?
-    if min(beyond_m[late:]) > 0 or max(beyond_m[late:]) < 0:
+    late_beyond_m = beyond_m[-len(late):]
+    if min(late_beyond_m) > 0 or max(late_beyond_m) < 0:
         return "S"
-    # H: did the true car rest all through the last 5 s, but not this one?
-    errors_m = [abs(sample.x_m - sample.true_m) for sample in samples]
-    has_true_rest = all(sample.true_mps == 0 for sample in samples[late:])
-    if has_true_rest and max(errors_m[late:]) > REST_M:
+    # H: did the true car lie still all through the last 5 s, but not this one? (A velocity of
+    # exactly 0 in each of these frames means that replay has laid the true car on its floor.)
+    true_car_lies = all(frame.true_mps == 0 for frame in late)
+    if true_car_lies and max(frame.error_m() for frame in late) > HOP_M:
         return "H"
-    # G, L and P are for a car that is over a drawn pixel off.
-    if max(errors_m) <= 1 / scene.m_to_px:
+    # G, L and P are for a car that is over a column off.
+    if max(frame.error_m() for frame in frames) <= column_m:
         return "-"
     # G or L: how much more energy did it have than the true car? 100 % is v^2/2 at the start, and
     # what the acceleration could add on the whole length of the track.
-    all_energy = scene.v_mps**2 / 2 + abs(scene.a_mps2) * track_m
-    energies = [scene.energy(sample.x_m, sample.v_mps) for sample in samples[late:]]
-    true_energies = [scene.energy(sample.true_m, sample.true_mps) for sample in samples[late:]]
+    all_energy = track.v_mps**2 / 2 + abs(track.a_mps2) * track_m
+    energies = [track.energy(frame.x_m, frame.v_mps) for frame in late]
+    true_energies = [track.energy(frame.true_m, frame.true_mps) for frame in late]
     gain = fmean(energies) - fmean(true_energies)
     if gain > 0.01 * all_energy:
         return "G"
@@ -1028,6 +960,7 @@ def cell(letters: list[str]) -> str:
 
 def stability(scene: Scene, title: str) -> None:
     """Print the map: a row for each method, a column for each rate, a letter for ten runs."""
+    column_m = 1 / scene.m_to_px
     say(f"Stability. {title}")
     say("Which methods are right, and from which frame rate on? Each runs ten times for 20 "
         "simulated seconds. A small letter: only some of the ten runs are so bad. 100 % of the "
@@ -1042,7 +975,7 @@ def stability(scene: Scene, title: str) -> None:
             method = replace(scene, motion=motion, correction=correction)
             row = method_text(motion, correction).ljust(20)
             for fps in MAP_FPS:
-                letters = [verdict(method, fps, cut) for cut in range(CUTS)]
+                letters = [verdict(method, column_m, fps, cut) for cut in range(CUTS)]
                 row += cell(letters).rjust(6)
             print(row, flush=True)
     for letter, meaning in VERDICTS.items():
@@ -1052,237 +985,187 @@ def stability(scene: Scene, title: str) -> None:
 # Why do some cars hop for ever, and why do others lie still too soon?
 # There is no code here. You need pen and paper.
 #
-# A car hops on the wall to which it is accelerated, as a ball hops on a floor. Call this wall the
-# floor. Up is away from the floor, and g is the size of a. All frames last dt. The car does not
-# meet the other wall. (In the drawing below up is to the right, and each line has the number of its
-# frame.)
+# A car hops on its floor, and does not meet the other wall. Up is away from the floor, g is the
+# size of a, and all frames last dt. So each frame adds g * dt to the velocity downwards.
 #
 # A hop lasts from a frame in which a collision is found to the next such frame. It begins upwards,
-# at the speed u, and ends downwards, at the speed w. Here is a hop with exact + surface. CR is 1, g
-# is 4 m/s^2, dt is 0.1 s, and a column is 1 cm.
+# at the speed u, and ends downwards, at the speed w. Here is a hop with exact + surface. g is 4
+# m/s^2, dt is 0.1 s, up is to the right, and a column is 1 cm. Each line has the number of its
+# frame.
 #     0:        *                   The hop begins on the floor (*), with u = 1.1 m/s upwards.
 #     1:        |        *
 #     2:        |             *
 #     3:        |              *
 #     4:        |           *
 #     5:        |    *
-#     6:  0     *                   The hop ends 6 cm lower (0), with w = 1.3 m/s downwards.
-# This hop has 6 frames. A true car comes back as fast as it left: w is u. This car comes back
-# faster. The number k of a hop says by how much:
-#         w - u = k * g * dt                  here 1.3 - 1.1 = k * 0.4, so k is 1/2
-# If a car comes back slower than it left, the k of this hop is negative.
+#     6:  0     *                   The hop ends below the floor (0), with w = 1.3 m/s downwards.
+# In truth a car comes back as fast as it left: w is u. This car comes back faster, because its
+# collision is found only below the floor. The number k of a hop says how much faster:
+#         w = u + k * g * dt                  here 1.3 = 1.1 + k * 0.4, so k is 1/2
+# Then surface or rebound lifts the car, and does not slow it. So the next hop begins at the speed
+# CR * w. Call the next hop 2, and this one 1. This is the law:
+#         w2 = CR * w1 + k2 * g * dt
+# In truth k is 0 in every hop.
 #
-# In truth each hop lasts CR times as long as the hop before. With surface and rebound the law is
-#         next = CR * (hop + k) + k'          here 7 = 1 * (6 + 1/2) + 1/2
-# Here hop and next are the lengths of a hop and of the hop after it, both in frames. The number k
-# belongs to the hop, and k' to the next hop. (The drawn hop is followed by one of 7 frames, which
-# has k' = 1/2, too.) If k and k' are 0, the law is the truth. It is found in three steps.
-# (1) Each frame adds g * dt to the velocity downwards. All frames of the hop together take it from
-#     -u to w:
-#         w + u = hop * g * dt                here 1.3 + 1.1 = 6 * 0.4
-# (2) Add w - u = k * g * dt to this, or subtract it. Then divide by 2:
-#         w = (hop + k) * g * dt/2            here 1.3 = (6 + 1/2) * 0.2
-#         u = (hop - k) * g * dt/2            here 1.1 = (6 - 1/2) * 0.2
-# (3) By (2) the next hop begins at the speed (next - k') * g * dt/2. This is what the bounce has
-#     left of w: CR * w. So next - k' is CR * (hop + k), and this is the law.
+# How large is k? In a hop of n frames the velocity downwards goes from -u to w:
+#         w = n * g * dt - u                  here 1.3 = 6 * 0.4 - 1.1
+# Subtract u once more. On the left, w - u is k * g * dt, by the definition of k:
+#         k = n - 2 * u/(g * dt)              here 6 - 5.5 = 1/2
+# And how large is n? After n frames the drawn car is n * dt * (u - n * g * dt/2) above the floor.
+# This is below 0 as soon as n is above 2 * u/(g * dt). The hop ends with the first such frame:
+#         n = the next whole number above 2 * u/(g * dt)          here above 5.5, so 6
+# So k is the distance from 2 * u/(g * dt) to the next whole number: more than 0, and at most 1.
 #
-# Where does k come from? A collision is found late, so a hop ends lower (0) than it begins (*). How
-# much lower is the drop of the hop. Here it is 6 cm. The mean velocity of the hop, downwards, is
-# (w - u)/2, and the hop lasts hop * dt. So with the exact motion
-#         drop = (w - u)/2 * hop * dt         here 6 cm = 0.1 m/s * 6 * 0.1 s
-# Put in k * g * dt for w - u:
-#         drop = k * hop * g * dt^2/2         here 6 cm = 1/2 * 12 cm
-# So of two hops that are equally long, the one with the larger drop has the larger k. In the hop
-# itself there is no error: a car that has fallen lower is faster. The error comes after it: surface
-# lifts the car by the drop, and does not slow it. Forward makes an error in each frame of the hop,
-# too. It moves the car at the velocity from the start of the frame, so the frame ends g * dt^2/2
-# higher than with exact. With backward it ends as much lower. Let s be 1 for forward, 0 for exact
-# and -1 for backward. Then
-#         drop = (k - s) * hop * g * dt^2/2
+# With the lines for n and w one can foretell a film with exact + surface. Say CR is 0.8:
+#         u = 1.1             2 * u/(g * dt) = 5.5       n = 6      w = 6 * 0.4 - 1.1 = 1.3
+#         u = 0.8 * 1.3 = 1.04                 5.2           6      w = 6 * 0.4 - 1.04 = 1.36
+#         u = 0.8 * 1.36 = 1.088               5.44          6      w = 6 * 0.4 - 1.088 = 1.312
+# In truth w would be 1.1, then 0.88, then 0.704. (If 2 * u/(g * dt) is a whole number, round-off
+# decides whether the hop ends there or a frame later.)
 #
-# How large is k? Take exact + surface. The hop begins on the floor. It ends with the first frame
-# after which the car is below the floor:
-#         height after n frames = n * dt * (u - n * g * dt/2)
-#         for n = hop it is below 0:          u is less than hop * g * dt/2
-#         for n = hop - 1 it is not:          u is at least (hop - 1) * g * dt/2
-#         by (2):                             u is (hop - k) * g * dt/2
-# So k is more than 0 and at most 1. With forward, (u - (n - 1) * g * dt/2) stands there, and k is
-# more than 1 and at most 2. With backward it is (u - (n + 1) * g * dt/2), and k is more than -1 and
-# at most 0. With rebound a hop begins above the floor, so its drop may be larger, and k up to 1
-# larger. (This proof is longer. The tests check it.) In every hop of two frames or more, at any CR,
-# but for round-off, k is more than the first number and at most the second:
+# With forward the car is g * dt^2/2 higher after one frame, 2 * g * dt^2/2 after two, and so on. So
+# with surface a hop has one frame more, and k is one larger. With backward a hop has one frame
+# less, but never less than one. With rebound a hop begins above the floor, so it may last longer.
+# (The tests check these rows in every hop.) In hops of two frames or more, k is more than the first
+# of these numbers and at most the second:
 #
 #                  surface     rebound
 #     forward      1 to 2      1 to 3
 #     exact        0 to 1      0 to 2
 #     backward    -1 to 0     -1 to 1
 #
-# Which k a hop has depends on where in a frame the car meets the floor. So it depends on the start
-# of the film.
-#
 # What does k do?
-#     k > 0   The car gets too much energy. At CR = 1 each hop is longer than the hop before, by
-#             k + k' frames (G in the map). At CR < 1 the hops should die out, but many do not.
-#             When does a hop repeat? Put next = hop and k' = k into the law:
-#                 hop = CR * (hop + k) + k,  so  hop * (1 - CR) = k * (1 + CR)
-#             So a hop of k * (1 + CR)/(1 - CR) frames is followed by the same hop, for ever. (If
-#             it is over 1 mm high, the map shows H. In hops of one frame the car meets the floor
-#             in every frame: it rests.) With rebound the hops may also end in a cycle, as 7 7 8 9
-#             9 8 with exact + rebound at CR = 0.8.
-#     k < 0   The car gets too little energy. At CR = 1 it should hop for ever, but its hops get
-#             shorter, and it comes to rest (L). At CR < 1 the next hop is shorter than CR * hop.
-#     k = 0   The car gets the right energy.
+#     k > 0   The car gets speed from nothing. At CR = 1 it hops higher and higher (G in the map).
+#             At CR < 1 it may hop for ever (H, if it hops over 1 mm high): see the steady hop.
+#     k < 0   The car loses speed. It comes to rest, even at CR = 1 (L).
+#     k = 0   The car comes back as fast as it left. With exact + conserve this is so in each hop,
+#             if w is the speed at the floor itself, as conserve works it out. But the hop may be up
+#             to a frame too long: with u = 1.1 it has 6 frames instead of 5.5.
 #
-# Example 20 is exact + rebound at CR = 0.8. From its start the hops get to k = 1, so to
-# 1 * 1.8/0.2 = 9 frames, and stay so: the car never comes to rest. With exact + surface at CR = 0.8
-# k is at most 1, so the hops that repeat have 2 to 9 frames.
+# Which hop is steady? Let all hops have the same u, w and n. Then u is CR * w. Put this into the
+# lines for w and k:
+#         w = n * g * dt/(1 + CR)             and             k = n * (1 - CR)/(1 + CR)
+# With exact + surface k is at most 1. So a steady hop has at most (1 + CR)/(1 - CR) frames: 9 at
+# CR = 0.8. Which n it is depends on the start. Longer hops get shorter, and shorter hops may even
+# get longer: with g * dt = 0.4 m/s and u = 0.1 m/s hops of 1, 2, 3, 4 and 4 frames follow each
+# other. A hop of one frame meets the floor in each frame, so the film calls the car at rest. Below
+# CR = 1/3 this is the only steady hop. With rebound k is not always the same: the hops may also go
+# round in a cycle, as 7 7 8 9 9 8 frames.
 #
-# Example 19 is backward + surface at CR = 1, so k is more than -1 and at most 0. When is it 0? By
-# (2), k is hop - 2 * u/(g * dt). If 2 * u is a whole number of g * dt, k is a whole number, too, so
-# it is 0. In example 19 this never happens: g * dt is 0.2 m/s, and the start velocity is 0.098 m/s.
-# Each frame changes the velocity by 0.2 m/s, and a bounce changes only its sign. So k is below 0 in
-# each hop, and the car comes to rest. But for a car that starts from rest 2 * u is a whole number
-# of g * dt. So it hops for ever, as it should. (Such a hop meets the floor at the very end of a
-# frame. Because of round-off the program may find the collision there, one frame too early. Then k
-# is -1.)
+# Example 20 is exact + rebound at CR = 0.8, and g * dt is 0.2 m/s. From its start the hops get
+# steady at n = 9. So w is 9 * 0.2/1.8 = 1 m/s, and k is 1. The car hops like this for ever.
 #
-# Backward + rebound may have k above and below 0 in turn, so its car gets higher and lower.
+# Example 19 is backward + surface at CR = 1. There 2 * u/(g * dt) is 15.02, 14.98, 13.02, 12.98 ...
+# and n is 15, 14, 13, 12 ... So k is -0.02 and -0.98 in turn, and the car comes to rest. If
+# 2 * u/(g * dt) is a whole number, as for a car that starts from rest, k is 0. Then the car hops
+# for ever, as it should, if round-off lets it.
 
 # The physics ends here.
 
 # ==== 10. Before and after a film ===============================================================
 # What is said before a film, and what after it?
 
-class Wanted(NamedTuple):
-    """What the user wants."""
+# Chart and map use these settings alone. They choose methods and frame rates themselves.
+FOR_COMMANDS = ["x_m", "v_mps", "a_mps2", "left_edge_m", "right_edge_m", "CR", "m_to_px",
+                "width_px"]
 
-    command: str  # film, chart or stability
+class Wanted(NamedTuple):
+    """What the user wants to see."""
+
+    command: str | None  # chart, stability or, for a film, None
     number: int  # of the example
-    changes: dict[str, Any]  # the settings that replace the example's own
-    typed: dict[str, str]  # the same, as they were typed: NAME=VALUE by the name
+    typed: dict[str, str]  # the settings that replace the example's own, as they were typed
+    scene: Scene
+    unchanged: Scene | None  # the example as it is, if a + is drawn for it
+    texts: Example  # the one whose texts fit
     has_details: bool
     is_fast: bool
     max_frames: int
 
-def say_before(scene: Scene, wanted: Wanted) -> None:
-    """Say which scene the film is of: its title, what the user changed, and all that moves it."""
+def title_text(wanted: Wanted) -> str:
+    """Which scene the film is of, and what the user changed."""
     title = OWN_SCENE.title
     if wanted.number in EXAMPLES:
         title = f"Example {wanted.number}: {EXAMPLES[wanted.number].title}"
-    say(", ".join([title, *wanted.typed.values()]))
-    texts = [scene_text(scene)]
-    if scene.show_methods:
-        texts += [f"{letter}: {method_text(*method)}" for letter, method in METHODS.items()]
-    say("; ".join(texts))
+    changes = [f"{name}={text}" for name, text in wanted.typed.items()]
+    return ", ".join([title, *changes])
 
-def film(scene: Scene, wanted: Wanted) -> None:
+def scene_text(scene: Scene) -> str:
+    """All that moves the car, in words."""
+    text = f"{track_text(scene)}; {method_text(scene.motion, scene.correction)}"
+    text += f", {scene.fps_target:.10g} FPS"
+    if scene.jitter > 0:
+        text += f", jitter={scene.jitter:.10g}"
+    if scene.use_observed_dt:
+        text += ", use_observed_dt=True"
+    if scene.x_m != scene.to_track(scene.x_m):
+        text += "; it starts beyond a wall"
+    if scene.show_methods:
+        for letter, (motion, correction) in METHODS.items():
+            text += f"; {letter}: {method_text(motion, correction)}"
+    return text
+
+def film(wanted: Wanted) -> None:
     """Say what to look for, leave time to guess, show the film, and say what was to be seen."""
-    example = EXAMPLES.get(wanted.number, OWN_SCENE)
-    unchanged = None
-    as_it_is = scene_of(example.settings)
-    if wanted.number in EXAMPLES and scene_text(as_it_is) != scene_text(scene):
-        example, unchanged = CHANGED, as_it_is
-        shows_truth = wanted.changes.get("show_exact_mark", True)
-        scene = replace(scene, show_exact_mark=shows_truth)
-    has_details = wanted.has_details or wanted.number == 0  # the first film shows what there is
-    say_before(scene, wanted)
-    view = fitted(scene, has_details)
+    scene = wanted.scene
+    say(title_text(wanted))
+    say(scene_text(scene))
+    view = fitted(scene, wanted.has_details)
     if view.width_px < scene.width_px:
         say(f"The picture is drawn {view.width_px} columns wide, to fit into the terminal.")
-    cars = cars_of(scene, unchanged)
+    cars = cars_of(scene, wanted.unchanged)
     taking = nullcontext(NoKeys()) if wanted.is_fast else taken_keys()  # NoKeys takes nothing
     with taking as keys:
-        question = example.look_for
-        if not example.seen and not scene.show_exact_mark:
-            question = "Does the * come to rest?"  # the other question is about the o
-        for text in keys.texts_before(question):
+        for text in keys.texts_before(wanted.texts.look_for):
             say(text)
         keys.leave_time()
         print()
-        run(cars, view, has_details, wanted.max_frames, keys)
-    if cars["*"].frames == 0:
-        return
+        run(cars, scene, view, wanted.has_details, wanted.max_frames, keys)
+    if len(cars["*"].frames) == 1:
+        return  # it was ended before it began
     tell_cars(cars)
     if not wanted.is_fast:
-        say_after(cars["*"], example, wanted)
+        say_after(wanted)
 
-def say_after(car: Car, example: Example, wanted: Wanted) -> None:
+def say_after(wanted: Wanted) -> None:
     """Say what was to be seen or, where nobody knows it, what to try. Then say what comes next."""
     print()
-    if example.seen:
-        say(example.seen)
-    else:
-        say(advice(car))
-        words = " ".join([word for name, word in wanted.typed.items() if name in OF_THE_TRACK])
-        say(f"Which methods are right here? {PYTHON} airtrack.py stability {wanted.number} {words}")
+    say(wanted.texts.seen)
+    if wanted.texts in (CHANGED, CHANGED_FRAMES, OWN_SCENE):
+        words = [f"{name}={text}" for name, text in wanted.typed.items() if name in FOR_COMMANDS]
+        print(PYTHON, "airtrack.py stability", wanted.number, *words)
     following = wanted.number + 1 if wanted.number + 1 in EXAMPLES else "chart"
     say(f"Next: {PYTHON} airtrack.py {following}")
 
-def advice(car: Car) -> str:
-    """Is the car's method right for its scene? If not, what may be tried, one after the other?"""
-    scene = car.scene
-    pixel = f"a drawn pixel ({1 / scene.m_to_px:.2g} m)"
-    if not car.collisions:
-        return "No collision of the * was found, so this film tells nothing of its correction."
-    if car.most_off_m <= 1 / scene.m_to_px:
-        return f"The * stayed within {pixel} of its true car. So its method is right for this film."
-    text = f"The * was up to {off_text(car)} from its true car, which is over {pixel}."
-    cures = ["conserve", "rewind", "replay"] if scene.starts_on_track() else ["conserve"]
-    if scene.motion == "exact" and scene.correction in cures:
-        cures = cures[cures.index(scene.correction) + 1:]
-    if not cures:
-        return text
-    change = f"correction={', then '.join(cures)}"
-    if scene.motion != "exact":
-        change = f"motion=exact and, at the same time, {change}"
-    return f"{text} Try {change}."
-
-# ==== 11. Checks ================================================================================
-# Which scenes are allowed?
-
-SETTINGS = {each.name: each for each in fields(Scene)}
-
-def allowed_text(name: str) -> str:
-    """What a setting may be, in words."""
-    allowed = SETTINGS[name].metadata
-    if "choices" in allowed:
-        return " or ".join([str(choice) for choice in allowed["choices"]])
-    kind = "a whole number" if isinstance(SETTINGS[name].default, int) else "a number"
-    return f"{kind} from {allowed['least']} to {allowed['largest']}"
-
-def is_allowed(name: str, value: Any) -> bool:
-    """Whether the setting of this name may have this value."""
-    allowed = SETTINGS[name].metadata
-    kind = type(SETTINGS[name].default)
-    is_of_kind = type(value) is kind or (kind is float and type(value) is int)  # 1 is a number, too
-    if "choices" in allowed:
-        return is_of_kind and value in allowed["choices"]
-    return is_of_kind and bool(allowed["least"] <= value <= allowed["largest"])
-
-def check(scene: Scene) -> None:
-    """Raise ValueError for a scene that is not allowed."""
-    for name in SETTINGS:
-        value = getattr(scene, name)
-        if not is_allowed(name, value):
-            raise ValueError(f"{name} must be {allowed_text(name)}, not {value}")
-    left_m, right_m = scene.left_edge_m, scene.right_edge_m
-    if right_m - left_m < 0.01 - 1e-9:  # round-off: 2.21 - 2.2 is a little less than 0.01
-        raise ValueError(f"right_edge_m must be {left_m} + 0.01 or more, not {right_m}")
-    needed_by = f"with correction={scene.correction}"
-    if scene.correction in EXACT_ONLY and scene.motion != "exact":
-        raise ValueError(f"motion must be exact {needed_by}, not {scene.motion}: choose "
-                         "motion=exact or another correction")
-    if scene.correction in EXACT_ONLY and not scene.starts_on_track():
-        raise ValueError(f"x_m must be from {left_m} to {right_m} {needed_by}, not {scene.x_m}")
-
-# ==== 12. The command line ======================================================================
+# ==== 11. The command line ======================================================================
 # What does the user want?
 
 FRAMES = 50_000  # a film that nobody stops ends then
 COMMANDS = {"chart": chart, "stability": stability}
-# The commands use these settings alone. They choose methods and frame rates themselves.
-OF_THE_TRACK = ["x_m", "v_mps", "a_mps2", "left_edge_m", "right_edge_m", "CR", "m_to_px",
-                "width_px"]
+DEFAULTS = vars(Scene())
+MEANINGS = {
+    "x_m": "start position in m",
+    "v_mps": "start velocity in m/s, to the right",
+    "a_mps2": "acceleration in m/s^2, to the right",
+    "left_edge_m": "position of the left wall in m",
+    "right_edge_m": "position of the right wall in m",
+    "CR": "speed after a bounce / speed before it",
+    "motion": "how the car is moved",
+    "correction": "how a collision is settled",
+    "fps_target": "frames a second, 1/dt",
+    "use_observed_dt": "dt is how long the frame lasted",
+    "jitter": "frames vary by up to this part",
+    "auto_off": "stop when the car is at rest",
+    "m_to_px": "zoom in columns for each m",
+    "width_px": "width of the picture in columns",
+    "show_start_mark": "draw a . at the start",
+    "show_collision_mark": "draw a 0 where a move ended",
+    "show_exact_mark": "draw an o for the true car",
+    "show_methods": "draw a to e for five methods",
+}
+OF_THE_FRAMES = ["fps_target", "use_observed_dt", "jitter"]
+OF_THE_PICTURE = ["auto_off", "m_to_px", "width_px", "show_start_mark", "show_collision_mark",
+                  "show_exact_mark", "show_methods"]
 
 # What people type because other programs have it, and what it is called here:
 OTHER_NAMES = {"fps": "fps_target", "dt": "fps_target", "g": "a_mps2", "gravity": "a_mps2",
@@ -1290,45 +1173,45 @@ OTHER_NAMES = {"fps": "fps_target", "dt": "fps_target", "g": "a_mps2", "gravity"
                "v": "v_mps", "speed": "v_mps", "velocity": "v_mps", "e": "CR", "restitution": "CR",
                "zoom": "m_to_px", "map": "stability", "fast": "--fast", "frames": "--frames"}
 
-def converted(name: str, text: str) -> Any:
-    """The value that a text stands for or, if the setting has no such value, the text itself."""
-    kind: Any = type(SETTINGS[name].default)
-    if kind is bool:
-        return {"true": True, "false": False}.get(text.lower(), text)
-    try:
-        return kind(text)
-    except ValueError:
-        return text
+def hint(word: str) -> str:
+    """What may have been meant by an unknown word."""
+    hints = OTHER_NAMES | {each.lower(): each for each in [*MEANINGS, *COMMANDS]}
+    hints |= {each: f"motion={each}" for each in MOTIONS}
+    hints |= {each: f"correction={each}" for each in ALL_CORRECTIONS}
+    # With a lower cutoff some hints are wrong: a_mps2 for grafik, as that is like gravity.
+    near = difflib.get_close_matches(word.lower().lstrip("-"), hints, n=1, cutoff=0.7)
+    if not near:
+        return "-h lists all that there are"
+    name = hints[near[0]]
+    if name in MEANINGS:
+        name = f"{name}=VALUE ({MEANINGS[name]})"
+    return f"did you mean {name}?"
+
+def name_and_text(word: str) -> tuple[str, str]:
+    """The two parts of NAME=VALUE. Raises ValueError for any other word."""
+    name, _, text = word.partition("=")
+    if name in MEANINGS and text:
+        return name, text
+    name, _, _ = name.partition(":")
+    if name in MEANINGS:  # as in CR 0.7, CR = 0.7 or CR:0.7
+        raise ValueError(f"write {name}=VALUE as one word: {name} must be {allowed_text(name)}")
+    raise ValueError(f"unknown word {word}: {hint(name)}")
 
 def value_of(name: str, text: str) -> Any:
     """The value of a setting, from what a user typed after NAME=. Raises ValueError."""
-    value = converted(name, text)
-    if is_allowed(name, value):
-        return value
     fault = f"{name} must be {allowed_text(name)}, not {text}"
-    with_point = text.replace(",", ".")
-    if is_allowed(name, converted(name, with_point)):
-        fault += f": write {name}={with_point}"
-    raise ValueError(fault)
-
-def unknown(word: str, following: list[str]) -> str:
-    """The error text for a word that means nothing. What may have been meant?"""
-    name, _, text = word.replace(":", "=").partition("=")
-    if name in SETTINGS:  # CR 0.7, CR = 0.7 or CR:0.7
-        values = [each for each in [text, *following] if is_allowed(name, converted(name, each))]
-        values.append("VALUE")  # if there is no value
-        return f"unknown word {word}: write {name}={values[0]}, without spaces"
-    hints = OTHER_NAMES | {each.lower(): each for each in [*SETTINGS, *COMMANDS]}
-    hints |= {each: f"motion={each}" for each in MOTIONS}
-    hints |= {each: f"correction={each}" for each in ALL_CORRECTIONS}
-    cutoff = 1.0 if len(name) == 1 else 0.6  # a single letter must be in the table itself
-    near = difflib.get_close_matches(name.lower().lstrip("-"), hints, n=1, cutoff=cutoff)
-    if not near:
-        return f"unknown word {word}: -h lists all that there are"
-    hint = hints[near[0]]
-    if hint in SETTINGS:
-        hint = f"{hint}=VALUE ({SETTINGS[hint].metadata['meaning']})"
-    return f"unknown word {word}: did you mean {hint}?"
+    if name in CHOICES:
+        return text
+    if isinstance(DEFAULTS[name], bool):
+        if text.lower() not in ("true", "false"):
+            raise ValueError(fault)
+        return text.lower() == "true"
+    if "," in text:
+        raise ValueError(f"{fault}: write a decimal point, not a comma")
+    try:
+        return int(text) if name == "width_px" else float(text)
+    except ValueError:
+        raise ValueError(fault) from None
 
 def epilog() -> str:
     """What -h shows at its end: the examples, the methods and the settings."""
@@ -1340,8 +1223,8 @@ def epilog() -> str:
         row = f"  {name:9} {first_line}"
         lines.append(textwrap.fill(row, 80, subsequent_indent=" " * 12))
     lines += ["", "settings: default, meaning and what is allowed"]
-    for name, each in SETTINGS.items():
-        row = f"  {name:20}{each.default!s:9}{each.metadata['meaning']} ({allowed_text(name)})"
+    for name, meaning in MEANINGS.items():
+        row = f"  {name:20}{DEFAULTS[name]!s:9}{meaning} ({allowed_text(name)})"
         lines.append(textwrap.fill(row, 80, subsequent_indent=" " * 31))
     return "\n".join(lines)
 
@@ -1352,101 +1235,95 @@ def make_parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter)  # it leaves our lines as they are
     parser.add_argument("words", nargs="*", metavar="WORD", help="see above")
     parser.add_argument("-d", "-D", dest="details", action="store_true", help="as the word d")
-    parser.add_argument("--fast", action="store_true", help="no waiting, keys, colours or advice")
+    parser.add_argument("--fast", action="store_true", help="no waiting, keys, colours or texts")
     parser.add_argument("--frames", type=int, metavar="N", default=FRAMES,
                         help=f"stop after N frames; without it, after {FRAMES}")
     return parser
 
-def read_command_line(parser: argparse.ArgumentParser, argv: list[str]) -> Wanted:
+def film_wanted(number: int, changes: dict[str, Any]) -> tuple[Scene, Scene | None, Example]:
+    """What a film shows: its scene, the example as it is (for the +), and the texts that fit."""
+    if number not in EXAMPLES:
+        return scene_of(OWN_SCENE.settings | changes), None, OWN_SCENE
+    example = EXAMPLES[number]
+    as_it_is = DEFAULTS | example.settings
+    different = [name for name, value in changes.items() if value != as_it_is[name]]
+    if set(different) <= set(OF_THE_PICTURE):
+        return scene_of(example.settings | changes), None, example
+    # Nobody knows what happens in a changed example. So the film shows its true car.
+    scene = scene_of(example.settings | {"show_exact_mark": True} | changes)
+    if set(different) & set(OF_THE_FRAMES):
+        return scene, None, CHANGED_FRAMES  # a + would need frames of its own
+    return scene, scene_of(example.settings), CHANGED
+
+def command_wanted(command: str, number: int, changes: dict[str, Any],
+                   options: argparse.Namespace) -> Scene:
+    """The scene of a chart or a map. Raises ValueError for what a command does not take."""
+    refused = [name for name in changes if name not in FOR_COMMANDS]
+    if options.details or options.fast or options.frames != FRAMES:
+        refused.append("d, --fast or --frames")
+    if refused:
+        raise ValueError(f"{command} takes no {refused[0]}: it chooses methods and frame rates "
+                         f"itself, and takes an EXAMPLE and {', '.join(FOR_COMMANDS)}")
+    settings = EXAMPLES.get(number, OWN_SCENE).settings | changes
+    scene = scene_of({name: settings[name] for name in FOR_COMMANDS if name in settings})
+    return replace(scene, x_m=scene.to_track(scene.x_m))  # a start beyond a wall is not compared
+
+def wanted_by(options: argparse.Namespace, unknown_options: list[str]) -> Wanted:
     """What the words and options of the command line ask for. Raises ValueError."""
-    options, unknown_options = parser.parse_known_intermixed_args(argv)
-    if unknown_options:
-        raise ValueError(unknown(unknown_options[0], []))
-    commands, numbers, changes, typed = [], [], {}, {}
-    for place, word in enumerate(options.words):
-        name, _, text = word.partition("=")
+    numbers, commands, typed = [], [], {}
+    for word in [*options.words, *unknown_options]:
         if word in ("d", "D"):
             options.details = True
         elif word in COMMANDS:
             commands.append(word)
         elif word.removeprefix("-").isdecimal():
             numbers.append(int(word))
-        elif name in SETTINGS and text:
-            changes[name] = value_of(name, text)
-            typed[name] = word
         else:
-            raise ValueError(unknown(word, options.words[place + 1:]))
+            name, text = name_and_text(word)
+            typed[name] = text
     if len(commands) > 1 or len(numbers) > 1:
         raise ValueError(f"one command and one EXAMPLE at a time, not {commands + numbers}")
-    command, number = "film", 0
-    if commands:
-        command, number = commands[0], 10
-        useless = [name for name in changes if name not in OF_THE_TRACK]
-        if options.details or options.fast or options.frames != FRAMES:
-            useless.append("d, --fast or --frames")
-        if useless:
-            raise ValueError(f"{command} takes no {useless[0]}: it chooses methods and frame rates "
-                             f"itself, and takes an EXAMPLE and {', '.join(OF_THE_TRACK)}")
-    if numbers:
-        number = numbers[0]
     if options.frames < 1:
         raise ValueError(f"--frames N must be a whole number from 1 up, not {options.frames}")
-    return Wanted(command, number, changes, typed, options.details, options.fast, options.frames)
-
-def scene_wanted(wanted: Wanted) -> Scene:
-    """The scene that the user wants. Raises ValueError."""
-    settings = EXAMPLES.get(wanted.number, OWN_SCENE).settings | wanted.changes
-    if wanted.command not in COMMANDS:
-        return scene_of(settings)
-    settings = {name: value for name, value in settings.items() if name in OF_THE_TRACK}
-    return truth_of(scene_of(settings))  # the start is on the track, wherever it was
-
-def obey(argv: list[str]) -> None:
-    """Do what the command line asks for. Wrong input ends the program here, with status 2."""
-    parser = make_parser()
-    try:
-        wanted = read_command_line(parser, argv)
-        scene = scene_wanted(wanted)
-    except ValueError as fault:
-        parser.error(str(fault))  # this prints the text and ends the program
-    if wanted.command in COMMANDS:
-        COMMANDS[wanted.command](scene, f"Scene {wanted.number}: {start_text(scene)}")
+    command, number = None, 1
+    if commands:
+        command, number = commands[0], 12
+    if numbers:
+        number = numbers[0]
+    changes = {name: value_of(name, text) for name, text in typed.items()}
+    if command is None:
+        scene, unchanged, texts = film_wanted(number, changes)
     else:
-        film(scene, wanted)
-
-def status_of(argv: list[str]) -> int:
-    """Obey the command line. Returns the exit status."""
-    try:
-        obey(argv)
-    except KeyboardInterrupt:
-        return 130
-    except SystemExit as end:  # after -h, wrong input or a signal
-        return int(end.code or 0)
-    return 0
+        scene, unchanged, texts = command_wanted(command, number, changes, options), None, OWN_SCENE
+    has_details = options.details or number == 0  # the one-pager always shows them
+    return Wanted(command, number, typed, scene, unchanged, texts, has_details, options.fast,
+                  options.frames)
 
 def main(argv: list[str] | None = None) -> int:
-    """Obey argv or, without it, the command line. Returns the exit status."""
-    if argv is None:
-        argv = sys.argv[1:]
+    """Do what argv or, without it, the command line asks for. Returns the exit status."""
+    parser = make_parser()
+    options, unknown_options = parser.parse_known_intermixed_args(argv)
     try:
-        status = status_of([word.replace("\u2212", "-") for word in argv])  # a typeset minus
+        wanted = wanted_by(options, unknown_options)
+    except ValueError as fault:
+        parser.error(str(fault))  # this prints the text and ends the program with status 2
+    try:
+        if wanted.command is None:
+            film(wanted)
+        else:
+            title = f"Scene {wanted.number}: {track_text(wanted.scene)}"
+            COMMANDS[wanted.command](wanted.scene, title)
         sys.stdout.flush()
-    except BrokenPipeError:
-        return 0  # nobody reads any more, as after | head
-    except OSError as fault:  # the disk is full, say
-        with suppress(OSError):  # the error may not be printable, either
-            print(f"airtrack.py: error: {fault}", file=sys.stderr)
+    except KeyboardInterrupt:
+        return 130  # what shells expect after Ctrl-C
+    except OSError as fault:  # the output takes no more
+        # Python prints what is left when it ends. From here on this goes nowhere.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        if isinstance(fault, BrokenPipeError):
+            return 0  # nobody reads any more, as after | head
+        print(f"airtrack.py: error: {fault}", file=sys.stderr)  # the disk is full, say
         return 2
-    return status
+    return 0
 
 if __name__ == "__main__":
-    if sys.stdout is None:  # it was closed before the program began
-        sys.stdout = open(os.devnull, "w")
-    if sys.stderr is None:
-        sys.stderr = open(os.devnull, "w")
-    status = main()
-    if status == 130 and os.name == "posix":
-        # Die by Ctrl-C's signal itself. Then a loop of the shell ends, too.
-        signal.signal(signal.SIGINT, signal.SIG_DFL)
-        os.kill(os.getpid(), signal.SIGINT)
-    os._exit(status)  # sys.exit would try again to print what could not be printed
+    sys.exit(main())

@@ -1,8 +1,8 @@
 """The air track's companion: the numbered examples, as data, and the keys.
 
 An example is a title, the settings in which its scene differs from the default one, and what it
-shows. The keys work in a little pygame window and in the terminal, whichever has the focus. Nobody
-needs to read about the keys who came for the physics.
+shows. The keys work in a little pygame window and in the terminal, whichever has the focus. If you
+came for the physics, you need not read about the keys.
 """
 
 import importlib.util
@@ -47,32 +47,32 @@ EXAMPLES = {
         "fps_target": 1 / 0.015, "correction": "surface", "auto_off": False,
         "show_collision_mark": False},
         "An air track: * is the car, | are the walls, and each line is one moment. Where will the "
-        "car be after 45 s? Then end the film with x.",
-        "At the left wall, to which it is accelerated. It comes to lie there in frame 2930 (t = 44 "
-        "s), after 26 bounces. Each of them took 20 % of its speed. From then on each frame moves "
-        "it a little into the wall and puts it back."),
+        "car be after 45 s?",
+        "At the left wall, to which it is accelerated. Each bounce takes 20 % of its speed, so "
+        "the bounces get shorter. From about t = 44 s on each frame moves it a little into the "
+        "wall and puts it back."),
     1: Example("A first look", {
         "x_m": 2.0, "a_mps2": -1.5, "CR": 0.7, "show_collision_mark": False},
-        "Watch the bottom row only, and cover the rows above with paper. There the car (*) moves "
-        "between its walls (|). At each bounce, guess: what part of the way will it go back?",
-        "About half. It starts 1.75 m from the left wall, and gets back to 0.87 m, 0.46 m and 0.21 "
-        "m. In a bounce it keeps 70 % of its speed, so 0.7^2 = 0.49 of its energy, and the energy "
-        "decides how far it gets. When it has been at rest for a third of a second, in frame 251, "
-        "the film stops by itself. If you type d after the number, as in 1 d, each line shows "
-        "figures."),
+        "Watch the bottom row only. There the car (*) moves between its walls (|). At each "
+        "bounce, guess: what part of the way will it go back?",
+        "About half. It starts 1.75 m from the left wall, and gets back to 0.87 m, 0.46 m and "
+        "0.21 m. In a bounce it keeps 70 % of its speed, so 0.7^2 = 0.49 of its energy, and the "
+        "energy decides how far it gets. When it has been at rest for 0.3 s, in "
+        "frame 251, the film stops by itself. If you type d after the number, as in 1 d, each "
+        "line shows figures."),
     2: Example("No correction", {
         "x_m": 1.65, "v_mps": 2.7, "CR": 1.0, "correction": "none", "show_collision_mark": False},
         "Nothing puts the car back on the track after a collision. Only its velocity is reversed. "
-        "How far does it go into the walls, and does it come out again? End the film with x.",
+        "How far does it go into the walls, and does it come out again?",
         "It goes up to 8 cm into the walls, and it comes out again each time. A frame moves it by "
-        "9 cm, so a move may end nearly as far beyond the wall. There its velocity is reversed. It "
-        "keeps all its speed (CR=1), and its acceleration is 0. So the next move is as long as the "
-        "one before, and brings it out."),
+        "9 cm, so a move may end nearly as far beyond the wall. There its velocity is reversed. "
+        "It keeps all its speed (CR=1), and its acceleration is 0. So the next move is as long as "
+        "the one before, and brings it out."),
     3: Example("No correction, losing speed", {
         "x_m": 2.0, "a_mps2": -1.5, "CR": 0.6, "correction": "none", "auto_off": False,
         "show_collision_mark": False},
         "Now the car loses speed in each bounce, and it is accelerated to the left. Does it come "
-        "back from the left wall? Watch for ten seconds, then press x.",
+        "back from the left wall? Watch for ten seconds.",
         "No. In frame 46 (t = 1.53 s) the car is beyond the left wall, so its velocity is "
         "reversed. But it has kept only 60 % of its speed, and a frame later it is still beyond "
         "the wall. So its velocity is reversed again, now into the wall, and so on. The car is "
@@ -86,74 +86,75 @@ EXAMPLES = {
         "Like a row of arcs, each of them a parabola. For a film is a graph: position to the "
         "right, time downwards. A constant acceleration draws parabolas there, as in a textbook, "
         "only turned by 90 degrees. The right wall cuts the first arc off. The first arcs are "
-        "hundreds of lines long, and the last ones draw a tail. The film stops after 1880 frames."),
+        "hundreds of lines long, and the last ones draw a tail. The film stops after 1882 frames."),
     5: Example("Where each collision was found", {
         "x_m": 2.0, "v_mps": 3.0, "a_mps2": 2.0, "CR": 0.7},
         "A 0 shows where the move alone put the car, beyond the wall. Where is the * in the same "
         "line? Does every collision show a 0?",
-        "The rebound has put the * back on the track, 70 % as far from the wall as the 0 is on the "
-        "other side. Often that is so near that the * stands in the wall's column. Many of the 19 "
-        "collisions show no 0. It falls into the wall's column, too, and the wall hides it. With "
-        "fps_target=10, a film to end with x, at least the first five show their 0."),
+        "The rebound has put the * back on the track, 70 % as far from the wall as the 0 is on "
+        "the other side. Often that is so near that the * stands in the wall's column. Many of "
+        "the 18 collisions show no 0. It falls into the wall's column, too, and the wall hides "
+        "it. With fps_target=10 the moves end further beyond the wall, and the first five "
+        "collisions show their 0."),
     6: Example("Example 5 zoomed out", {
         "x_m": 2.0, "v_mps": 3.0, "a_mps2": 2.0, "CR": 0.7, "m_to_px": 30.0},
         "The drawing is smaller than in example 5. Does the motion change, too? Compare after how "
         "many frames the film stops.",
-        "No, only the drawing changes: it is about half as wide (30/55). The film stops after 236 "
+        "No, only the drawing changes: it is about half as wide (30/55). The film stops after 235 "
         "frames, as example 5 does. With d, each line has the figures of example 5."),
     7: Example("Elastic, small steps", ELASTIC | {"fps_target": 240.0},
-        "No speed is lost in a bounce. So the car should come back to the start mark, the dot at 2 "
-        "m, every time. Does it? End the film with x.",
-        "Nearly. It turns 1.1 cm short of the mark, first in frame 633 (t = 2.64 s). The next time "
-        "it turns at the mark, then short of it again, and so on. The 1.1 cm are less than a "
+        "No speed is lost in a bounce. So the car should come back to the start mark, the dot at "
+        "2 m, every time. Does it? Watch for six seconds.",
+        "Nearly. It turns 1.1 cm short of the mark, first in frame 633 (t = 2.64 s). The next "
+        "time it turns at the mark, then short of it again, and so on. The 1.1 cm are less than a "
         "column, so only d shows them. In example 8 the same happens with larger steps, and there "
         "one sees it."),
     8: Example("Elastic, large steps", COARSE,
-        "Now example 7 at only 10 FPS. How near to the start mark does the car come back? Watch it "
-        "come back four times, then press x.",
+        "Example 7 at only 10 FPS. How near to the start mark does the car come back? Watch it "
+        "come back four times.",
         "Only to 1.88 m, 12 cm short of the mark. The next time it reaches the mark, then again "
         "only 1.88 m, and so on. Think of the left wall as a floor. In each frame backward Euler "
         "takes away 1 cm of height, so 26 cm in a fall and the rise after it. The rebound gives "
         "height back: it puts the car as far above the floor as it was below, and does not slow "
-        "it. First it was 7 cm below: 2 * 7 = 14 cm, 12 too few. Then it was 19 cm below: 2 * 19 = "
-        "38 cm, 12 too many."),
+        "it. First it was 7 cm below: 2 * 7 = 14 cm, 12 too few. Then it was 19 cm below: 2 * 19 "
+        "= 38 cm, 12 too many."),
     9: Example("Elastic, large and irregular steps", COARSE | IRREGULAR,
         "Example 8 with irregular frames: each is up to a quarter longer or shorter. How near to "
-        "the start mark does the car come back? Press x after 30 s.",
+        "the start mark does the car come back? Watch for half a minute.",
         "It comes back elsewhere each time: it wanders. First it turns at about 1.81 m, and after "
-        "about half a minute even beyond the start mark. On a busy computer these figures may be a "
-        "little different. Think of the left wall as a floor again. The rebound gives back more "
+        "about half a minute even beyond the start mark. On a busy computer these figures may be "
+        "a little different. Think of the left wall as a floor again. The rebound gives back more "
         "height if the car is found deeper in this wall. In irregular frames the depth is "
         "irregular, too."),
     10: Example("The exact solution", EXACT,
-        "Only 10 FPS, but exact formulas. How near to the start mark does the car come back? Begin "
-        "with s, and press it until you see the 0 of the first bounce, in line 14. Then p lets the "
-        "film go on, and x ends it.",
+        "Only 10 FPS, but exact formulas. How near to the start mark does the car come back? "
+        "Begin with s, and press it until you see the 0 of the first bounce, in line 14. Then p "
+        "lets the film go on.",
         "It comes back to the start mark, the dot at 2 m, every time. The car moves by the "
-        "formulas of kinematics. The correction, rewind, works out at what moment of the frame the "
-        "car met the wall, and lets it bounce at that moment. The 0 in frame 14 shows where the "
-        "move alone had put the car. In example 8, at the same 10 FPS, it does not come back."),
+        "formulas of kinematics. The correction, rewind, works out at what moment of the frame "
+        "the car met the wall, and lets it bounce at that moment. The 0 in frame 14 shows where "
+        "the move alone had put the car. In example 8, at the same 10 FPS, the car comes back to "
+        "the mark only every second time."),
     11: Example("The exact solution, irregular steps", EXACT | IRREGULAR,
-        "Example 10 with irregular frames. How near to the start mark does the car come back? End "
-        "the film with x.",
+        "Example 10 with irregular frames. How near to the start mark does the car come back?",
         "To the mark itself, every time, as in example 10. For the exact solution it does not "
         "matter how the time is cut into frames. There are two exceptions: a frame that holds two "
         "bounces, as in example 12, and a frame that misses a bounce, as in example 18."),
     12: Example("The exact solution, losing energy", EXACT | IRREGULAR | {"CR": 0.8},
-        "Example 11, but the car keeps only 80 % of its speed in a bounce. The bounces come faster "
-        "and faster. Is there a last one? When does the car rest?",
+        "Example 11, but the car keeps only 80 % of its speed in a bounce. The bounces come "
+        "faster and faster. Is there a last one? When does the car rest?",
         "There is no last bounce. In truth the car bounces infinitely often before t = 11.91 s, "
-        "the Zeno point, and then it rests. But rewind can settle only one bounce a frame. So its "
-        "car hops on, too low to see, until the film calls it at rest in about frame 130. Replay "
-        "settles them all: with correction=replay the film stops in about frame 120. Still, rewind "
-        "is good enough for this scene. Until the film ends it is at most about 4.2 mm off, less "
-        "than a quarter of a column. On a busy computer all these figures may be a little "
-        "different."),
+        "the Zeno point, and then it lies still. The film calls it at rest from 10.99 s on, "
+        "because then it cannot rise 3 mm. Rewind can settle only one bounce a frame. So its car "
+        "never lies still: with auto_off=False it makes hops of some mm for ever, too low to see. "
+        "With correction=replay it lies still from the Zeno point on. Rewind is good enough for "
+        "this scene: until the film ends it is at most about 4.2 mm off, less than a quarter of a "
+        "column. On a busy computer all these figures may be a little different."),
     13: Example("Forward Euler beside the truth", {
         "x_m": 0.25, "v_mps": 2.48, "a_mps2": -2.0, "CR": 1.0, "motion": "forward",
         "fps_target": 10.0, "show_exact_mark": True},
         "The * is moved by forward Euler, and the o is the true car. Which gets further to the "
-        "right before it turns? Watch both turn, then press x.",
+        "right before it turns? Watch both turn.",
         "The * does. It turned at 1.91 m, in frame 13, and the o at 1.79 m. Forward Euler moves "
         "the car through a whole frame at the velocity that it had when the frame began. That is "
         "too fast on the way out and too slow on the way back. So in each frame the * gets 1 cm "
@@ -161,7 +162,7 @@ EXAMPLES = {
         "motion=exact the * stays on the o until it meets the wall, in frame 25."),
     14: Example("Four metres a frame", QUICK,
         "The car moves 4 m in a frame, but the track is only 1.95 m long. Does the car stay "
-        "between the walls? (< and > mean: out of the picture.) End the film with x.",
+        "between the walls? (< and > mean: out of the picture.)",
         "No. The rebound puts the car as far in front of the wall as it was beyond it. Here that "
         "is further than the track is long. So the car lands beyond the other wall: out to the "
         "left (<), then out to the right (>), and so on, 4.1 m further out every other frame. It "
@@ -169,32 +170,33 @@ EXAMPLES = {
     15: Example("Four metres a frame, wall by wall", QUICK | {
         "motion": "exact", "correction": "replay"},
         "Example 14 with the exact solution, which settles every bounce. The car still moves 4 m "
-        "in a frame. What will its motion look like? End the film with x.",
+        "in a frame. What will its motion look like?",
         "The car seems to creep along the track. In a frame of 4 m it goes to the walls and back, "
         "3.9 m, and ends 0.1 m from where it was. In the same way the wheels of a wagon seem to "
         "turn slowly in a film. This is the stroboscopic effect."),
     16: Example("Example 8 beside the truth", COARSE | {"show_exact_mark": True},
         "The o is the true car, and the * is the car of example 8. When does the * leave the o, "
-        "and how far do they get apart? Press x after 20 s.",
+        "and how far do they get apart? Watch for 20 s.",
         "At once: they are 1 cm apart in frame 1, 2 cm in frame 2, and up to 0.9 m within 20 s. "
-        "There are two reasons. In flight, backward Euler moves the * through a whole frame at the "
-        "velocity that it has when the frame ends. In a bounce, the rebound does not know at what "
-        "moment of the frame the car met the wall."),
+        "There are two reasons. In flight, backward Euler moves the * through a whole frame at "
+        "the velocity that it has when the frame ends. In a bounce, the rebound does not know at "
+        "what moment of the frame the car met the wall."),
     17: Example("Exact motion with the rebound", COARSE | {
         "motion": "exact", "show_exact_mark": True},
         "Now the motion is exact, but the correction is the rebound. When does the * leave the o? "
-        "Does it gain energy or lose some? Press x after 20 s.",
+        "Does it gain energy or lose some? Watch for 20 s.",
         "The * stays on the o until the first bounce, in frame 14. After that it is wrong, by up "
         "to 1.8 m within 20 s. The motion is exact, so the error comes from the rebound. The "
-        "acceleration points to the left wall. There the rebound lifts the car against it and does "
-        "not slow the car, so the car gains energy. At the right wall it loses some of it. With "
-        "correction=conserve it comes back to the start mark each time, and stays within 6 cm of "
-        "the o for 20 s. With correction=rewind it stays on the o."),
+        "acceleration points to the left wall. There the rebound lifts the car against it and "
+        "does not slow the car, so the car gains energy. At the right wall it loses some of it: "
+        "the table has its least and its most energy. With correction=conserve the energy is "
+        "right, and the car comes back to the start mark each time, but each bounce comes up to a "
+        "frame late. With correction=rewind the * stays on the o."),
     18: Example("The exact solution at 4 FPS", {
         "x_m": 0.65, "v_mps": 5.0, "a_mps2": -8.0, "CR": 1.0, "motion": "exact",
         "correction": "rewind", "fps_target": 4.0, "show_exact_mark": True},
         "Begin with s, press it four times, and watch the right wall. What does the o do there, "
-        "and what does the *? End the film with x.",
+        "and what does the *?",
         "By frame 3 the o has bounced off the right wall. The * has turned without a bounce, and "
         "in frame 4 they are about 0.4 m apart. In frame 3 the move goes 1 cm beyond the wall and "
         "comes back before it ends. So no collision is found: a missed event. A method that looks "
@@ -205,62 +207,100 @@ EXAMPLES = {
         "No speed is lost in a bounce. Count lines from bounce to bounce: how long is each hop of "
         "the *, beside the one before? With d after the number you see each bounce: there v jumps "
         "up, and in all other lines it falls by 0.20 m/s.",
-        "One line shorter: the hops take 15, 14, 13 ... lines, down to 2 and 1, too low to see. In "
-        "frame 134 the film calls the * at rest. There is a law of the hops: at CR = 1 each hop is "
-        "k + k' lines longer than the hop before, where k belongs to the one hop and k' to the "
-        "other. With backward + surface k is between -1 and 0, so the hops get shorter. With "
-        "exact + surface k is between 0 and 1: add motion=exact, and the hops take 18, 19, 20 ... "
+        "One line shorter: the hops take 15, 14, 13 ... lines, down to 2 and 1, too low to see. "
+        "In frame 135 the film calls the * at rest. A true car comes back each time as fast as it "
+        "left. The * comes back slower, by 0.004 m/s and by 0.196 m/s in turn. With motion=exact "
+        "it comes back faster, by the same two numbers in turn. Then the hops take 18, 19, 20 ... "
         "lines for half a minute, until the * meets the right wall."),
     20: Example("Hops that lose speed, counted", {
         "x_m": 0.66, "v_mps": 0.75, "a_mps2": -2.0, "CR": 0.8, "motion": "exact",
         "fps_target": 10.0, "show_exact_mark": True},
         "Each bounce takes 20 % of the speed. Which comes to rest, the o or the *? Count the hops "
-        "of the * as in example 19. Press x after 10 s.",
-        "Only the o comes to rest, at t = 7.05 s, its Zeno point. (In the table it rests from the "
-        "end of this frame, 7.10 s.) The hops of the * take 14, 12, 10 lines and, from frame 48 "
-        "on, 9 for ever. The law for any CR is: a hop is followed by one of CR (hop + k) + k' "
-        "lines. With exact + rebound k is between 0 and 2, and from frame 48 on it is 1. So after "
-        "9 lines come 0.8 (9 + 1) + 1 = 9. A higher frame rate makes these hops lower, but at 30 "
-        "or 60 FPS they do not end either. The cure is correction=conserve: with it the * comes "
-        "to rest at about 7 s, as the o does."),
+        "of the * as in example 19. Watch for 10 s.",
+        "Only the o comes to rest: in truth it lies still from t = 7.05 s on, after infinitely "
+        "many bounces. (The table calls it at rest from 6.10 s on, because then it cannot rise 3 "
+        "mm.) The hops of the * take 14, 12, 10 lines and, from frame 48 on, 9 for ever. Each hop "
+        "ends below the floor, because the bounce is found late. Then the rebound lifts the car, "
+        "and does not slow it. So in each hop it comes back faster than it left, by up to 0.4 "
+        "m/s. But a bounce takes 20 % of its speed. At 1 m/s this is 0.2 m/s, as much as such a "
+        "hop gives. So it stays near 1 m/s. A higher frame rate makes this speed lower, but not "
+        "0. The cure is correction=conserve: with it the * comes to rest, too."),
     21: Example("Five methods on one track", EXACT | {"show_methods": True},
         "The * is the car of example 10. Which letter leaves it first, which gets furthest away, "
-        "and which two are never seen? Press x after 20 s.",
+        "and which two are never seen? Watch for 20 s.",
         "Letter a leaves the * first, by 1 cm in frame 1. Within 20 s it gets up to 0.9 m away. "
         "Letters b and c are moved exactly, so they leave the * only after the first bounce, in "
         "frame 14. The rebound lifts b off the wall, against the acceleration, and does not slow "
-        "it. So b gets furthest away, up to 1.8 m within 20 s. Conserve lifts c, too, but slows it "
-        "by what that costs. So c stays within 6 cm for these 20 s. Letters d and e are right, so "
-        "the * always hides them. The chart shows more: other starts, and costs."),
+        "it. So b gets furthest away, up to 1.8 m, with much too much energy. Conserve puts c on "
+        "the wall with the right energy, but up to a frame late each time: in 20 s it bounces "
+        "seven times, and gets up to 0.9 m away. Letters d and e are right, so the * always hides "
+        "them."),
     22: Example("The order of three lines", {
         "x_m": 1.0, "a_mps2": -10.0, "CR": 0.8, "left_edge_m": 0.0, "right_edge_m": 2.0,
         "fps_target": 60.0, "m_to_px": 500.0, "motion": "forward", "correction": "surface",
         "show_exact_mark": True},
         "The left wall is a floor. The * is the ball of a game. In each frame the game adds "
         "gravity to the velocity, settles a contact with the floor, and moves the ball. The o is "
-        "the true ball. Which of them comes to rest? Press x after eight seconds. (> means: higher "
+        "the true ball. Which of them comes to rest? Watch for eight seconds. (> means: higher "
         "than 27 cm, out of the picture.)",
-        "Only the o does: from t = 4.02 s on it lies still. From frame 327 on the * hops for ever, "
-        "in hops of 16 lines that are 80 mm high. The order of the three lines is to blame. From "
-        "contact to contact the game moves the ball, adds gravity, and settles the contact. That "
-        "is forward + surface, so in the law of the hops k is between 1 and 2: too much energy. "
-        "Other starts end in hops of 14 to 17 lines. The three lines are repeated in a circle, so "
-        "there are only two orders. Position, gravity, contact hops for ever, with whichever of "
-        "the three a frame begins. Gravity, position, contact comes to rest, with whichever a "
-        "frame begins. That is backward + surface, whose k is between -1 and 0. To see it, add "
-        "motion=backward: the film stops in frame 218."),
+        "Only the o does: in truth it lies still from t = 4.02 s on. (The table calls it at rest "
+        "from 3.78 s on.) From frame 327 on the * hops for ever, in hops of 16 lines that are "
+        "about 80 mm high. The order of the three lines is to blame. From contact to contact the "
+        "game moves the ball, adds gravity, and settles the contact. That is forward + surface: "
+        "in each hop the ball gets speed that it should not have. The three lines are repeated in "
+        "a circle, so there are only two orders. Position, gravity, contact hops for ever, with "
+        "whichever of the three a frame begins. Gravity, position, contact comes to rest. That is "
+        "backward + surface. To see it, add motion=backward: the film stops in frame 220."),
 }
+
+# These stand for a changed example and for a scene of one's own. Nobody knows what is to be seen
+# there, so the text after the film says what to try.
+TRY = ("The table tells how far the * was at most from its true car, and whether its energy stayed "
+       "right. If it is wrong, try motion=exact and, at the same time, correction=rewind, then "
+       "replay. If only the moments of the bounces may be wrong, correction=conserve is enough. "
+       "Which methods are right in this scene, and at which frame rates? The map tells it:")
 CHANGED = Example("A changed example", {},
-    "The + is the car of the example as it is, in its own frames and between its own walls. So it "
-    "may move only in some lines, and may turn where no wall is drawn. The o is the true car of "
-    "the changed scene. Where you see no o, it is under the *. What does your change do to the *? "
-    "Is the * right now?")
+    "The o is the true car of the changed scene. The + is the car of the example as it is. Where "
+    "you do not see one of them, it is under the *. What does your change do to the *? Is the * "
+    "right now?", TRY)
+CHANGED_FRAMES = Example("An example with other frames", {},
+    "The o is the true car. Where you see no o, it is under the *. What do the other frames do to "
+    "the *? Is the * right now?", TRY)
 OWN_SCENE = Example(f"Your own scene (the examples are 0 to {max(EXAMPLES)})", {
     "show_exact_mark": True},
     "The * is your car, and the o is the true car. Where you see no o, it is under the *. Does the "
     "* stay on the o? Does it come to rest? (Without an acceleration a car comes to rest only if "
-    "CR is 0.)")
+    "CR is 0.)", TRY)
 
+# ==== Signals ===================================================================================
+# Ctrl-C, Ctrl-Z, kill and a closed terminal come as signals.
+
+Handler = Any  # a function, SIG_DFL or SIG_IGN
+
+def set_handlers(handlers: dict[int, Handler]) -> dict[int, Handler]:
+    """Let these handlers act on these signals. Returns the handlers that were there before.
+
+    A signal that is ignored stays ignored: nohup relies on this.
+    """
+    before = {}
+    for number, handler in handlers.items():
+        if signal.getsignal(number) != signal.SIG_IGN:
+            before[number] = signal.signal(number, handler)
+    return before
+
+def ignore(*_: object) -> None:
+    """Do nothing. (With SIG_IGN, Python would tell of a signal that came just before.)"""
+
+ENDING_SIGNALS: list[int] = [signal.SIGTERM]
+DISTURBING_SIGNALS: list[int] = [signal.SIGTERM]  # while the program ends
+if sys.platform != "win32":
+    ENDING_SIGNALS += [signal.SIGHUP, signal.SIGQUIT]
+    DISTURBING_SIGNALS = [*ENDING_SIGNALS, signal.SIGCONT]  # SIGCONT would take the terminal again
+
+def end_by_signal(number: int, _: object) -> NoReturn:
+    """End the program as shells expect it. What has been taken is given back on the way."""
+    set_handlers(dict.fromkeys(DISTURBING_SIGNALS, ignore))
+    sys.exit(128 + number)
 
 # ==== The terminal's keys =======================================================================
 # Each system has its own way to get keys one by one, without Enter and without showing them.
@@ -268,9 +308,21 @@ OWN_SCENE = Example(f"Your own scene (the examples are 0 to {max(EXAMPLES)})", {
 GONE = "gone"  # stands for a terminal that is no longer there
 ESC = "\x1b"
 
-if sys.platform == "win32":
-    HAS_TERMINAL = os.isatty(0) and os.isatty(1)
+def has_terminal() -> bool:
+    """Whether input and output are a terminal from which keys can be taken."""
+    if not (os.isatty(0) and os.isatty(1)):
+        return False
+    if sys.platform == "win32":
+        return True
+    try:
+        os.tcgetpgrp(0)
+    except OSError:  # it is not this program's own, as after setsid
+        return False
+    return True
 
+HAS_TERMINAL = has_terminal()
+
+if sys.platform == "win32":
     @contextmanager
     def taken_terminal() -> Iterator[None]:
         """Windows gives keys one by one as it is, so there is nothing to take or to give back."""
@@ -288,18 +340,6 @@ if sys.platform == "win32":
         return keys
 
 else:
-    def has_terminal() -> bool:
-        """Whether input and output are a terminal from which keys can be taken."""
-        if not (os.isatty(0) and os.isatty(1)):
-            return False
-        try:
-            os.tcgetpgrp(0)
-        except OSError:  # it is not this program's own (after setsid): it could not be given back
-            return False
-        return True
-
-    HAS_TERMINAL = has_terminal()
-
     @contextmanager
     def taken_terminal() -> Iterator[None]:
         """Get keys one by one in the `with` block. Whatever ends it gives the terminal back."""
@@ -309,40 +349,32 @@ else:
         found = termios.tcgetattr(0)
 
         def take(*_: object) -> None:
-            # In the background, as after bg, the system stops the program here until fg.
-            with suppress(OSError, termios.error):  # the terminal itself may be gone
-                # Without TCSANOW, setcbreak would throw away the keys that wait.
-                tty.setcbreak(0, termios.TCSANOW)
+            """Take the terminal. In the background the system stops the program here until fg."""
+            with suppress(termios.error):  # the terminal may be gone
+                tty.setcbreak(0, termios.TCSANOW)  # TCSANOW keeps the keys that wait
 
-        def give_back() -> None:
-            with suppress(OSError, termios.error):
-                # A program that was stopped by Ctrl-Z and then killed has given it back already.
+        def give_back(when: int) -> None:
+            """Give the terminal back. In the background it has been given back already."""
+            with suppress(OSError, termios.error):  # the terminal may be gone
                 if os.tcgetpgrp(0) == os.getpgrp():
-                    # TCSAFLUSH throws away the keys that wait, so that the shell does not get them.
-                    termios.tcsetattr(0, termios.TCSAFLUSH, found)
+                    termios.tcsetattr(0, when, found)
 
         def stop(*_: object) -> None:
-            handle(["SIGCONT"], ignore)
-            give_back()
-            handle(["SIGTSTP"], signal.SIG_DFL)
-            os.kill(os.getpid(), signal.SIGTSTP)  # the program stands still here until fg
-            start()
-
-        def start() -> None:
-            handle(["SIGTSTP"], stop)  # Ctrl-Z
-            handle(["SIGCONT"], take)  # after kill -STOP
+            """Ctrl-Z: give the terminal back, stand still until fg, and take it again."""
+            set_handlers({signal.SIGCONT: ignore})
+            give_back(termios.TCSANOW)
+            set_handlers({signal.SIGTSTP: signal.SIG_DFL})
+            os.kill(os.getpid(), signal.SIGTSTP)
+            set_handlers({signal.SIGTSTP: stop, signal.SIGCONT: take})
             take()
 
+        before = set_handlers({signal.SIGTSTP: stop, signal.SIGCONT: take})
         try:
-            try:
-                start()
-                yield
-            finally:
-                handle(ENDING_SIGNALS, ignore)
-        finally:  # also if a signal has just ended the block above
-            handle(["SIGTSTP", "SIGCONT"], ignore)
-            give_back()
-            handle(["SIGTSTP", "SIGCONT"], signal.SIG_DFL)
+            take()
+            yield
+        finally:
+            give_back(termios.TCSAFLUSH)  # TCSAFLUSH throws away the keys that wait
+            set_handlers(before)
 
     def terminal_keys() -> list[str]:
         """The keys that were pressed since the last call."""
@@ -367,15 +399,15 @@ class Window:
 
     def __init__(self) -> None:
         self.why_shut = ""
+        os.environ["SDL_NO_SIGNAL_HANDLERS"] = "1"  # Ctrl-C and the like are for us
+        os.environ.setdefault("SDL_VIDEO_WINDOW_POS", "60,60")  # not over the newest line
+        os.environ["PYGAME_HIDE_SUPPORT_PROMPT"] = "1"
         if sys.platform == "linux":
             if not os.environ.get("DISPLAY"):
                 self.why_shut = "there is no display"
                 return
             # SDL, on which pygame stands, would else open an invisible window on a dead display.
             os.environ.setdefault("SDL_VIDEODRIVER", "x11")
-        os.environ["SDL_NO_SIGNAL_HANDLERS"] = "1"  # Ctrl-C and the like are for us
-        os.environ.setdefault("SDL_VIDEO_WINDOW_POS", "60,60")  # not over the newest line
-        os.environ["PYGAME_HIDE_SUPPORT_PROMPT"] = "1"
         if importlib.util.find_spec("pygame") is None:
             self.why_shut = "pygame is not installed"
             return
@@ -383,7 +415,6 @@ class Window:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")  # pygame's own, which do not concern the user
                 import pygame
-                import pygame.font
             pygame.display.init()  # not pygame.init(): its sound may print errors
             pygame.font.init()
             if pygame.display.get_driver() in ("dummy", "offscreen"):
@@ -456,13 +487,14 @@ class Keys:
             places.append("here")
         if not self.window.why_shut:
             places.append("in the little window")
-        where = f"Keys {' and '.join(places)}: p pauses, s steps, x quits."
+        if self.has_keys:
+            where = f"Keys {' and '.join(places)}: p pauses the film, s steps, x ends it."
+            when = f"It begins in {READING_S:g} s, or now with Enter or Ctrl-C. p holds the text."
+        else:
+            where = "No keys here: Ctrl-C ends the film."
+            when = f"It begins in {READING_WITHOUT_KEYS_S:g} s, or now with Ctrl-C."
         if self.window.why_shut:
             where += f" (No window: {self.window.why_shut}.)"
-        when = f"The film begins in {READING_S:g} s, or now with Enter or Ctrl-C. p holds the text."
-        if not self.has_keys:
-            where = f"No keys here. (No window: {self.window.why_shut}.)"
-            when = f"The film begins in {READING_WITHOUT_KEYS_S:g} s, or now with Ctrl-C."
         return [where, question, when]
 
     def press_ctrl_c(self, *_: object) -> None:
@@ -564,44 +596,18 @@ def print_for_now(text: str) -> None:
     if sys.stdout.isatty():
         print(text, end="\r", flush=True)
 
-# ==== Taking and giving back ====================================================================
-
-KILLING_SIGNALS = ["SIGTERM", "SIGHUP", "SIGQUIT", "SIGALRM", "SIGUSR1", "SIGUSR2", "SIGVTALRM",
-                   "SIGPROF", "SIGXCPU", "SIGIO", "SIGPWR"]
-ENDING_SIGNALS = ["SIGINT", *KILLING_SIGNALS]
-
-# The signals that were ignored when the program began stay ignored: nohup relies on this.
-IGNORED = [each for each in signal.valid_signals() if signal.getsignal(each) == signal.SIG_IGN]
-
-def handle(names: list[str], handler: Any) -> None:
-    """Let the handler act on these signals, but on none that the system does not have."""
-    for name in names:
-        number = getattr(signal, name, None)
-        if number is not None and number not in IGNORED:
-            signal.signal(number, handler)
-
-def end_by_signal(number: int, _: object) -> NoReturn:
-    """End the program as shells expect it, with 128 + the signal's number."""
-    # A second signal must not disturb the end, and the terminal is not taken again.
-    handle([*ENDING_SIGNALS, "SIGCONT"], ignore)
-    sys.exit(128 + number)
-
-def ignore(number: int, _: object) -> None:
-    """Do nothing. (With SIG_IGN, Python would tell of a signal that came just before.)"""
-
 @contextmanager
 def taken_keys() -> Iterator[Keys]:
     """Take window and terminal for a film. Whatever ends the `with` block gives them back."""
-    # A display that does not answer hangs pygame, and Python with it. Then only the system can act
-    # on a signal. So Python's handlers come after the window.
-    handle(["SIGINT"], signal.SIG_DFL)
+    # A display that does not answer hangs pygame, and Python with it. Only the system's own
+    # handler of Ctrl-C helps then. So Python's handlers come after the window.
+    before = set_handlers({signal.SIGINT: signal.SIG_DFL})
     keys = Keys(Window())
-    handle(KILLING_SIGNALS, end_by_signal)
-    handle(["SIGINT"], keys.press_ctrl_c)
+    set_handlers({signal.SIGINT: keys.press_ctrl_c})
+    before |= set_handlers(dict.fromkeys(ENDING_SIGNALS, end_by_signal))
     try:
         with taken_terminal():
             yield keys
     finally:
         keys.window.close()
-    handle(KILLING_SIGNALS, signal.SIG_DFL)
-    handle(["SIGINT"], signal.default_int_handler)
+        set_handlers(before)
