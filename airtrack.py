@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Air track: a car between two walls, drawn as one line of text a frame.
+"""Air track: a car between two walls, drawn as one line of text for each frame.
 So its film is a graph: position to the right, time downwards.
 
 A WORD is one of these, in any order:
@@ -110,8 +110,8 @@ MOTIONS = {"forward": forward, "backward": backward, "exact": exact}
 #     rewind     0       |    *              -0.048      -1.33     1.86
 #
 # A bounce, at depth 0, keeps the part CR of the speed, so CR^2 of the energy: 0.64 * 2.90 is 1.86.
-# Surface settles the place. Conserve settles the energy, too. Rewind settles the moment, too: only
-# it puts the car where a true car is at the end of this frame.
+# Surface settles the place. Conserve settles the energy, too. Rewind settles the moment, too: of
+# these five only rewind puts the car where a true car is at the end of this frame.
 #
 # The five corrections of this section take the same four arguments, and return a new depth_m and a
 # new inward_mps. So step() can call any of them.
@@ -187,9 +187,9 @@ def rewind(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> 
     back on the track when the frame ends, no collision is found: a missed event (example 18). If a
     move goes further beyond the wall than the track is long, rewind may throw the car out, too.
     """
-    # Run the film backwards: the car comes out of the wall. When is it at the wall, and how fast?
-    # In this film it moves outwards at the speed inward_mps. An acceleration does not turn round in
-    # a film that runs backwards: it still points inwards. So outwards it is -inward_mps2.
+    # How long ago did the car pass the wall, and how fast? Let time run backwards: the car moves
+    # out of the wall. Its velocity is turned round, so outwards it is inward_mps. Its acceleration
+    # is not turned round by that, so outwards it is -inward_mps2.
     late_s, met_mps = arrival(depth_m, inward_mps, -inward_mps2)  # 0.030 s, 2.41 m/s
     # Run it forwards again, from the wall, after the bounce, for the same time.
     new_depth_m, new_inward_mps = exact(0.0, -CR * met_mps, inward_mps2, late_s)
@@ -346,7 +346,7 @@ def next_bounce(h_m: float, rise_mps: float, g_mps2: float,
 def replay(track: Track, x_m: float, v_mps: float, dt_s: float) -> Moved:
     """Follow the exact motion for a whole frame, from bounce to bounce, as a ball in a room.
 
-    Takes and returns what step() does. Right for a frame of any length.
+    It takes and returns what step() does, and is right for a frame of any length.
     """
     # A car that has not turned and is still on the track has met no wall. This quick way out is
     # not needed, but most frames take it, and it is several times as fast.
@@ -378,8 +378,9 @@ def replay(track: Track, x_m: float, v_mps: float, dt_s: float) -> Moved:
         if rise_mps * rise_mps / 2 <= g_mps2 * GRAZE_M:
             return floor_m, 0.0, free_m  # it lies still, as it cannot rise by GRAZE_M
         if track.CR == 1 and has_met_floor:
-            # The ball will be back on the floor after the same time, again and again. Leave out
-            # these times as a whole: what is left over is the remainder of a division.
+            # since_floor_s is the time from floor to floor. No speed is lost, so it will be the
+            # same again and again. Leave out all whole ones: what is left is the remainder of a
+            # division.
             remaining_s = remaining_s % since_floor_s
         has_met_floor = True
         since_floor_s = 0.0
@@ -443,16 +444,18 @@ class Car:
 #     d  exact + rewind      right        none, or order 2 at CR < 1  short frames
 #     e  exact + replay      right        none                        the truth
 #
-# The column of the energy is for a car that bounces on its floor. Order 1 means that frames of half
-# the length make half the error, and order 2 that they make a quarter. Method d has no error while
-# each frame holds at most one bounce. At CR < 1 the last frames before the Zeno point hold several.
-# Without an acceleration a, b, d and e have no error in short frames. Only c has one.
+# The table is for a car that bounces on its floor. Order 1 means that frames of half the length
+# make half the error, and order 2 that they make a quarter. Method d is right while each frame
+# holds at most one bounce, and its move ends beyond the wall. But at CR < 1 the last frames before
+# the Zeno point hold several bounces. Without an acceleration, and in short frames, a, b, d and e
+# have no error, and c has one of order 1.
 #
 # Methods a to d need short frames, because they look only at the end of a frame, and settle one
 # bounce there. They miss a bounce if the car is back on the track when the frame ends (example 18).
 # If a move ends further beyond a wall than the track is long, a, b and d may throw the car out at
-# the other end. Methods c and e never do. Method e is right in frames of any length. Methods b to e
-# need a constant acceleration. For a ball between two walls nothing else speaks against e.
+# the other end. Methods c and e never do. Method e is right in frames of any length. Why not always
+# take e? It needs a constant acceleration, as b to d do. And it needs to know all walls at once, to
+# find the next bounce. The others settle only the wall that a move has met.
 METHODS = {"a": ("backward", "rebound"), "b": ("exact", "rebound"), "c": ("exact", "conserve"),
            "d": ("exact", "rewind"), "e": ("exact", "replay")}
 
@@ -533,7 +536,7 @@ def fitted(scene: Scene, has_details: bool) -> Scene:
     columns = shutil.get_terminal_size().columns
     if has_details:
         true_m = 0.0 if scene.show_exact_mark else None
-        longest = details_text(-1000, -1000, scene.fps_target, true_m)  # but for a car far out
+        longest = details_text(-1000, -1000, scene.fps_target, true_m)
         columns -= len(longest)
     columns = max(columns, 10)  # the least that a scene may have
     if columns >= scene.width_px or not sys.stdout.isatty():
@@ -615,8 +618,9 @@ def rest_began_s(car: Car) -> float | None:
     """Since when the car is at rest, or None if it is not.
 
     A car is at rest if in each frame, for 0.3 s and ten frames, it is on the track, and its energy
-    is too small to rise 3 mm above its floor. A method may leave it the speed a dt that a single
-    frame gives, so this speed does not count. (Without an acceleration the speed must be 0.)
+    is too small to rise 3 mm above its floor. A method may leave the car the speed that the
+    acceleration gives in a single frame. So the energy of this speed, (a * dt)^2/2, is allowed,
+    too. (Without an acceleration nothing is allowed: the speed must be 0.)
     """
     track = car.track
     now_s = began_s = car.frames[-1].t_s
@@ -662,7 +666,7 @@ def energy_text(energy: float) -> str:
     return f"{energy:.4g}"
 
 def hops_text(car: Car) -> str:
-    """How many frames there are from bounce to bounce: the first four and the last two."""
+    """How many frames there are from bounce to bounce. Of many, the first four and the last two."""
     bounces = [number for number, frame in enumerate(car.frames) if frame.mark_m is not None]
     hops = [str(after - before) for before, after in pairwise(bounces)]
     if len(hops) > 6:
@@ -693,19 +697,20 @@ def table_row(mark: str, car: Car) -> str:
 
 def tell_cars(cars: dict[str, Car]) -> None:
     """Print a table with a row for each car, and a line for its hops and its end."""
-    marks = [mark for mark in "*+oabcde" if mark in cars]
+    marks = [mark for mark in ("*", "o", "+", *METHODS) if mark in cars]
     print()
     print("                      furthest from    energy in J/kg")
     print("                     its own truth      first      least       most       last")
     for mark in marks:
         print(table_row(mark, cars[mark]))
     print("Energy 0: it lies on the wall to which it is accelerated. Below 0: beyond it.")
-    print("Two cars on the track cannot be further apart than the track is long.")
+    print("A car that stays on the track is never further off than the track is long.")
     print("The hops in frames, each from one bounce to the next, and the end:")
     for mark in marks:
         words = [hops_text(cars[mark]), end_text(cars[mark])]
         print(mark, "; ".join([text for text in words if text]))
-    print("At rest: through 0.3 s and ten frames it has too little energy to rise 3 mm.")
+    print("At rest: for 0.3 s and ten frames its energy is too small to rise 3 mm, but for")
+    print("the speed that its acceleration gives it in one frame.")
 
 def run(cars: dict[str, Car], scene: Scene, view: Scene, has_details: bool, max_frames: int,
         keys: Keys | NoKeys) -> None:
@@ -752,7 +757,7 @@ def simulate(track: Track, fps: int, cut: int, count: int) -> list[Frame]:
     frame later, at the true state of that moment.
     """
     car = Car(track)
-    # With eleven parts for ten cuts, no cut begins a whole frame later. That would be cut 0 again.
+    # The parts are elevenths, and not a half or a fifth, where round settings are a special case.
     car.start_later(cut / (CUTS + 1) / fps)
     for _ in range(SPAN_S * fps // count):
         car.move(1 / fps, count)
@@ -819,7 +824,7 @@ def order_text(series: list[Point], track_m: float) -> str:
     """The order of a method: at order 1 twice the rate divides the error by 2, at order 2 by 4."""
     if all(point.error_m < ROUND_OFF_M for point in series):
         return "none"
-    # An error of a tenth of the track hardly grows any more. So it tells nothing of the order.
+    # An error of a tenth of the track cannot grow much more. So it tells nothing of the order.
     telling = [point for point in series if ROUND_OFF_M <= point.error_m < track_m / 10]
     if len(telling) < 3:
         return "?"  # too few for a straight line
@@ -901,7 +906,7 @@ def chart(scene: Scene, title: str) -> None:
 # ==== 8. The map: where methods fail ============================================================
 # Which method fails at which frame rate, and how?
 
-HOP_M = 0.001  # 1 mm: a car that hops no higher counts as one that lies still
+HOP_M = 0.001  # 1 mm: lower hops count as lying still
 MAP_FPS = [1, 2, 5, 10, 30, 60, 120, 240, 1000]
 VERDICTS = {  # from the worst to the best. W is not for one run, but for ten: see cell().
     "X": "out: further beyond a wall than the track is long",
@@ -917,7 +922,7 @@ FROM_WORST_TO_BEST = list(VERDICTS)
 
 def verdict(track: Track, column_m: float, fps: int, cut: int) -> str:
     """The letter of one run: X, S, H, G, L, P or -. (W needs several runs.)"""
-    frames = simulate(track, fps, cut, max(1, fps // 10))  # a frame every 0.1 s
+    frames = simulate(track, fps, cut, max(1, fps // 10))  # every 0.1 s or, if longer, every frame
     late = frames[len(frames) * 3 // 4:]  # the last 5 of 20 s
     track_m = track.right_edge_m - track.left_edge_m
     # X: how far beyond a wall was the car?
@@ -1002,8 +1007,9 @@ def stability(scene: Scene, title: str) -> None:
 # In truth a car comes back as fast as it left: w is u. This car comes back faster, because its
 # collision is found only below the floor. The number k of a hop says how much faster:
 #         w = u + k * g * dt                  here 1.3 = 1.1 + k * 0.4, so k is 1/2
-# Then surface or rebound lifts the car, and does not slow it. So the next hop begins at the speed
-# CR * w. Call the next hop 2, and this one 1. This is the law:
+# Then surface or rebound leaves the car the speed CR * w, but lifts it, too. (For the lift it
+# should be slower.) So the next hop begins at CR * w. Call this hop 1, and the next hop 2. This is
+# the law:
 #         w2 = CR * w1 + k2 * g * dt
 # In truth k is 0 in every hop.
 #
@@ -1017,50 +1023,54 @@ def stability(scene: Scene, title: str) -> None:
 # So k is the distance from 2 * u/(g * dt) to the next whole number: more than 0, and at most 1.
 #
 # With the lines for n and w one can foretell a film with exact + surface. Say CR is 0.8:
-#         u = 1.1             2 * u/(g * dt) = 5.5       n = 6      w = 6 * 0.4 - 1.1 = 1.3
-#         u = 0.8 * 1.3 = 1.04                 5.2           6      w = 6 * 0.4 - 1.04 = 1.36
-#         u = 0.8 * 1.36 = 1.088               5.44          6      w = 6 * 0.4 - 1.088 = 1.312
+#         u                        2 * u/(g * dt)     n     w
+#         1.1                      5.5                6     6 * 0.4 - 1.1 = 1.3
+#         0.8 * 1.3 = 1.04         5.2                6     6 * 0.4 - 1.04 = 1.36
+#         0.8 * 1.36 = 1.088       5.44               6     6 * 0.4 - 1.088 = 1.312
 # In truth w would be 1.1, then 0.88, then 0.704. (If 2 * u/(g * dt) is a whole number, round-off
 # decides whether the hop ends there or a frame later.)
 #
-# With forward the car is g * dt^2/2 higher after one frame, 2 * g * dt^2/2 after two, and so on. So
-# with surface a hop has one frame more, and k is one larger. With backward a hop has one frame
-# less, but never less than one. With rebound a hop begins above the floor, so it may last longer.
-# (The tests check these rows in every hop.) In hops of two frames or more, k is more than the first
-# of these numbers and at most the second:
+# With the motion forward each frame ends g * dt^2/2 higher than with exact. So with surface a hop
+# has one frame more, and k is one larger. With backward each frame ends as much lower. So a hop has
+# one frame less, but never less than one. With rebound a hop begins above the floor, so it may last
+# longer. In hops of two frames or more, k is more than the first number and at most the second:
 #
 #                  surface     rebound
 #     forward      1 to 2      1 to 3
 #     exact        0 to 1      0 to 2
 #     backward    -1 to 0     -1 to 1
 #
+# (The tests check this table in every hop of many films.)
+#
 # What does k do?
 #     k > 0   The car gets speed from nothing. At CR = 1 it hops higher and higher (G in the map).
 #             At CR < 1 it may hop for ever (H, if it hops over 1 mm high): see the steady hop.
 #     k < 0   The car loses speed. It comes to rest, even at CR = 1 (L).
-#     k = 0   The car comes back as fast as it left. With exact + conserve this is so in each hop,
-#             if w is the speed at the floor itself, as conserve works it out. But the hop may be up
-#             to a frame too long: with u = 1.1 it has 6 frames instead of 5.5.
+#     k = 0   The car comes back as fast as it left.
 #
-# Which hop is steady? Let all hops have the same u, w and n. Then u is CR * w. Put this into the
-# lines for w and k:
+# What does exact + conserve do? A hop that began at u has the same frames as with surface. But then
+# conserve works out the speed at the floor itself, which is u. So the next hop begins at CR * u, as
+# in truth. Only the hop is up to a frame too long: with u = 1.1 it has 6 frames instead of 5.5.
+#
+# Which hop is steady, so that the same hop follows it? Then u is CR * w. Put this into the lines
+# for w and k:
 #         w = n * g * dt/(1 + CR)             and             k = n * (1 - CR)/(1 + CR)
-# With exact + surface k is at most 1. So a steady hop has at most (1 + CR)/(1 - CR) frames: 9 at
-# CR = 0.8. Which n it is depends on the start. Longer hops get shorter, and shorter hops may even
-# get longer: with g * dt = 0.4 m/s and u = 0.1 m/s hops of 1, 2, 3, 4 and 4 frames follow each
-# other. A hop of one frame meets the floor in each frame, so the film calls the car at rest. Below
-# CR = 1/3 this is the only steady hop. With rebound k is not always the same: the hops may also go
-# round in a cycle, as 7 7 8 9 9 8 frames.
+# With exact + surface k is at most 1. So a steady hop has at most (1 + CR)/(1 - CR) frames: 9 at CR
+# = 0.8. Each whole n from 1 to this limit is possible (at the limit itself round-off decides), and
+# the start of the film decides which of them it is. Hops may even get longer: with CR = 0.8, g * dt
+# = 0.4 m/s and u = 0.1 m/s, hops of 1, 2, 3, 4 and 4 frames follow each other. In hops of one frame
+# the car meets the floor in each frame, so it lies there. (The film calls steady hops of one or two
+# frames at rest, because their energy is small enough.) Below CR = 1/3 only n = 1 is steady. With
+# rebound k is not the same in all hops of one length. So the hops may also go round in a cycle, as
+# 7 7 8 9 9 8 frames.
 #
 # Example 20 is exact + rebound at CR = 0.8, and g * dt is 0.2 m/s. From its start the hops get
 # steady at n = 9. So w is 9 * 0.2/1.8 = 1 m/s, and k is 1. The car hops like this for ever.
 #
 # Example 19 is backward + surface at CR = 1. There 2 * u/(g * dt) is 15.02, 14.98, 13.02, 12.98 ...
-# and n is 15, 14, 13, 12 ... So k is -0.02 and -0.98 in turn, and the car comes to rest. If
-# 2 * u/(g * dt) is a whole number, as for a car that starts from rest, k is 0. Then the car hops
-# for ever, as it should, if round-off lets it.
-
-# The physics ends here.
+# and n is 15, 14, 13, 12 ... So k is -0.02 and -0.98 in turn, and the hops get shorter down to one
+# frame: the car lies on the floor. If 2 * u/(g * dt) is a whole number, as for a car that starts
+# from rest, k is 0. Then the car hops for ever, as it should, if round-off lets it.
 
 # ==== 10. Before and after a film ===============================================================
 # What is said before a film, and what after it?
@@ -1132,6 +1142,8 @@ def say_after(wanted: Wanted) -> None:
     print()
     say(wanted.texts.seen)
     if wanted.texts in (CHANGED, CHANGED_FRAMES, OWN_SCENE):
+        say("The map tells which methods stay within a column of the film, which is "
+            f"{1 / wanted.scene.m_to_px:.2g} m wide:")
         words = [f"{name}={text}" for name, text in wanted.typed.items() if name in FOR_COMMANDS]
         print(PYTHON, "airtrack.py stability", wanted.number, *words)
     following = wanted.number + 1 if wanted.number + 1 in EXAMPLES else "chart"
@@ -1169,9 +1181,10 @@ OF_THE_PICTURE = ["auto_off", "m_to_px", "width_px", "show_start_mark", "show_co
 
 # What people type because other programs have it, and what it is called here:
 OTHER_NAMES = {"fps": "fps_target", "dt": "fps_target", "g": "a_mps2", "gravity": "a_mps2",
-               "a": "a_mps2", "x": "x_m", "position": "x_m", "h": "x_m", "height": "x_m",
-               "v": "v_mps", "speed": "v_mps", "velocity": "v_mps", "e": "CR", "restitution": "CR",
-               "zoom": "m_to_px", "map": "stability", "fast": "--fast", "frames": "--frames"}
+               "a": "a_mps2", "x": "x_m", "position": "x_m", "h": "x_m", "v": "v_mps",
+               "speed": "v_mps", "velocity": "v_mps", "e": "CR", "restitution": "CR",
+               "zoom": "m_to_px", "map": "stability", "details": "d", "help": "-h",
+               "fast": "--fast", "frames": "--frames"}
 
 def hint(word: str) -> str:
     """What may have been meant by an unknown word."""
@@ -1258,9 +1271,9 @@ def film_wanted(number: int, changes: dict[str, Any]) -> tuple[Scene, Scene | No
 def command_wanted(command: str, number: int, changes: dict[str, Any],
                    options: argparse.Namespace) -> Scene:
     """The scene of a chart or a map. Raises ValueError for what a command does not take."""
-    refused = [name for name in changes if name not in FOR_COMMANDS]
     if options.details or options.fast or options.frames != FRAMES:
-        refused.append("d, --fast or --frames")
+        raise ValueError(f"{command} is no film: it takes no d, --fast or --frames")
+    refused = [name for name in changes if name not in FOR_COMMANDS]
     if refused:
         raise ValueError(f"{command} takes no {refused[0]}: it chooses methods and frame rates "
                          f"itself, and takes an EXAMPLE and {', '.join(FOR_COMMANDS)}")
@@ -1276,13 +1289,14 @@ def wanted_by(options: argparse.Namespace, unknown_options: list[str]) -> Wanted
             options.details = True
         elif word in COMMANDS:
             commands.append(word)
-        elif word.removeprefix("-").isdecimal():
+        elif word.removeprefix("-").isdecimal():  # -5 is a number, too
             numbers.append(int(word))
         else:
             name, text = name_and_text(word)
             typed[name] = text
     if len(commands) > 1 or len(numbers) > 1:
-        raise ValueError(f"one command and one EXAMPLE at a time, not {commands + numbers}")
+        found = [str(each) for each in [*commands, *numbers]]
+        raise ValueError(f"one command and one EXAMPLE at a time, not {', '.join(found)}")
     if options.frames < 1:
         raise ValueError(f"--frames N must be a whole number from 1 up, not {options.frames}")
     command, number = None, 1
@@ -1291,11 +1305,12 @@ def wanted_by(options: argparse.Namespace, unknown_options: list[str]) -> Wanted
     if numbers:
         number = numbers[0]
     changes = {name: value_of(name, text) for name, text in typed.items()}
+    unchanged, texts = None, OWN_SCENE
     if command is None:
         scene, unchanged, texts = film_wanted(number, changes)
     else:
-        scene, unchanged, texts = command_wanted(command, number, changes, options), None, OWN_SCENE
-    has_details = options.details or number == 0  # the one-pager always shows them
+        scene = command_wanted(command, number, changes, options)
+    has_details = options.details or number == 0  # example 0 always shows them
     return Wanted(command, number, typed, scene, unchanged, texts, has_details, options.fast,
                   options.frames)
 

@@ -255,17 +255,17 @@ EXAMPLES = {
 
 # These stand for a changed example and for a scene of one's own. Nobody knows what is to be seen
 # there, so the text after the film says what to try.
-TRY = ("The table tells how far the * was at most from its true car, and whether its energy stayed "
-       "right. If it is wrong, try motion=exact and, at the same time, correction=rewind, then "
-       "replay. If only the moments of the bounces may be wrong, correction=conserve is enough. "
-       "Which methods are right in this scene, and at which frame rates? The map tells it:")
+TRY = ("The table tells how far the * was at most from its true car, and its energy beside that of "
+       "the o. If they differ too much for you, try motion=exact and, at the same time, "
+       "correction=rewind, then replay. If only the moments of the bounces may be wrong, "
+       "correction=conserve is enough.")
 CHANGED = Example("A changed example", {},
     "The o is the true car of the changed scene. The + is the car of the example as it is. Where "
-    "you do not see one of them, it is under the *. What does your change do to the *? Is the * "
-    "right now?", TRY)
+    "you do not see one of them, it is under the *. (< and > mean: the * is out of the picture.) "
+    "What does your change do to the *? Is the * right now?", TRY)
 CHANGED_FRAMES = Example("An example with other frames", {},
-    "The o is the true car. Where you see no o, it is under the *. What do the other frames do to "
-    "the *? Is the * right now?", TRY)
+    "The o is the true car. Where you see no o, it is under the *. What does your change of the "
+    "frames do to the *? Is the * right now?", TRY)
 OWN_SCENE = Example(f"Your own scene (the examples are 0 to {max(EXAMPLES)})", {
     "show_exact_mark": True},
     "The * is your car, and the o is the true car. Where you see no o, it is under the *. Does the "
