@@ -15,10 +15,10 @@ A WORD is one of these, in any order:
 For example: python airtrack.py 10 d CR=0.9
 
 In a film, * is the car and | is a wall. < or > is the car, too, when it is out
-of the picture. If the car bounces, 0 is where the frame would have ended without
-walls. A . is the start. o is the true car. If you change an example, but not
-its frames, + is the car of the example as it is. a to e are the cars of five
-methods.
+of the picture. If the car bounces, 0 is where the frame would have ended
+without walls. A . is the start. o is the true car. If you change an example,
+but not its frames, + is the car of the example as it is. a to e are the cars of
+five methods.
 
 README.md says what this is good for. .github/lesson.md is a lesson for a class.
 """
@@ -27,7 +27,7 @@ README.md says what this is good for. .github/lesson.md is a lesson for a class.
 #                         Section 4 ends with a table: which method is good for what.
 #     Sections 5 and 6    the film: how a frame is drawn, and the main loop.
 #     Sections 7 to 9     how wrong the methods are: the chart, the map, and the law behind the map.
-#     Sections 10 and 11  what is said around a film, and the command line. They hold no physics.
+#     Sections 10 to 12   what is said around a film, the settings, and the command line.
 # The file examples.py holds the numbered examples and the keys.
 
 import argparse
@@ -206,34 +206,6 @@ EXACT_ONLY = ["rewind", "replay"]  # they need the exact motion
 
 # ==== 3. The track and a frame ==================================================================
 # What does the physics need to know, and how does the car get from one frame to the next?
-#
-# First: what may a setting be? The settings of the film (section 5) stand here, too.
-
-LIMITS = {  # the least and the largest value
-    "x_m": (-1000, 1000), "v_mps": (-1000, 1000), "a_mps2": (-1000, 1000),
-    "left_edge_m": (-1000, 1000), "right_edge_m": (-1000, 1000), "CR": (0, 1),
-    "fps_target": (0.1, 1000), "jitter": (0, 0.9), "m_to_px": (0.001, 1000), "width_px": (10, 1000)}
-CHOICES = {"motion": list(MOTIONS), "correction": ALL_CORRECTIONS}
-
-def allowed_text(name: str) -> str:
-    """What a setting may be, in words."""
-    if name in CHOICES:
-        *others, last = CHOICES[name]
-        return f"{', '.join(others)} or {last}"
-    if name not in LIMITS:
-        return "True or False"
-    least, largest = LIMITS[name]
-    kind = "a whole number" if name == "width_px" else "a number"
-    return f"{kind} from {least} to {largest}"
-
-def is_allowed(name: str, value: Any) -> bool:
-    """Whether the setting of this name may have this value."""
-    if name in CHOICES:
-        return value in CHOICES[name]
-    if name not in LIMITS:
-        return isinstance(value, bool)
-    least, largest = LIMITS[name]
-    return bool(least <= value <= largest)
 
 @dataclass(frozen=True)  # frozen: nothing can change it. replace() makes a changed copy.
 class Track:
@@ -252,22 +224,16 @@ class Track:
     correction: str = "rebound"
 
     def __post_init__(self) -> None:
-        """Check the settings. Python calls this when a Track is made."""
-        for each in fields(self):
-            value = getattr(self, each.name)
-            if not is_allowed(each.name, value):
-                raise ValueError(f"{each.name} must be {allowed_text(each.name)}, not {value}")
-        least_m = self.left_edge_m + 0.01
-        if self.right_edge_m < least_m - 1e-9:  # round-off: 0.57 + 0.01 is a little more than 0.58
-            raise ValueError(f"right_edge_m must be {least_m:.10g} or more, which is left_edge_m + "
-                             f"0.01, not {self.right_edge_m}")
-        if self.correction in EXACT_ONLY and self.motion != "exact":
-            raise ValueError(f"correction={self.correction} needs motion=exact, not {self.motion}: "
-                             "choose motion=exact or another correction")
-        if self.correction in EXACT_ONLY and self.x_m != self.to_track(self.x_m):
-            raise ValueError(f"correction={self.correction} needs x_m from {self.left_edge_m} to "
-                             f"{self.right_edge_m}, not {self.x_m}: choose a start between the "
-                             "walls or another correction")
+        """Refuse settings that are not allowed. Python calls this when a Track is made."""
+        check(self)  # see section 11
+
+    def length_m(self) -> float:
+        """The distance between the walls."""
+        return self.right_edge_m - self.left_edge_m
+
+    def has_on_it(self, x_m: float) -> bool:
+        """Whether x_m is a place on the track, and not beyond a wall."""
+        return self.left_edge_m <= x_m <= self.right_edge_m
 
     def to_track(self, x_m: float) -> float:
         """The place on the track that is nearest to x_m: x_m itself, or the wall it is beyond."""
@@ -343,6 +309,36 @@ def next_bounce(h_m: float, rise_mps: float, g_mps2: float,
     flight_s, speed_mps = arrival(h_m, -rise_mps, g_mps2)
     return "floor", flight_s, speed_mps
 
+def follow(h_m: float, rise_mps: float, g_mps2: float, room_m: float, CR: float,
+           remaining_s: float) -> tuple[float, float, bool]:
+    """Follow the ball from bounce to bounce. Where is it after remaining_s?
+
+    Returns its height, its velocity upwards, and whether it has bounced.
+    """
+    has_bounced = has_met_floor = False
+    since_floor_s = 0.0  # how long ago the ball met the floor, if it has
+    while rise_mps != 0 or g_mps2 != 0:  # otherwise nothing moves the ball
+        wall, flight_s, speed_mps = next_bounce(h_m, rise_mps, g_mps2, room_m)
+        if flight_s > remaining_s:
+            break  # the time is over before the ball gets there
+        has_bounced = True
+        remaining_s -= flight_s
+        since_floor_s += flight_s
+        if wall == "ceiling":
+            h_m, rise_mps = room_m, -CR * speed_mps
+            continue
+        h_m, rise_mps = 0.0, CR * speed_mps
+        if rise_mps * rise_mps / 2 <= g_mps2 * GRAZE_M:
+            return 0.0, 0.0, True  # it lies still, as it cannot rise by GRAZE_M
+        if CR == 1 and has_met_floor:
+            # The ball needed since_floor_s from floor to floor. At CR = 1 it will need as long
+            # again and again. Leave out all whole periods: a division leaves the remainder.
+            remaining_s = remaining_s % since_floor_s
+        has_met_floor = True
+        since_floor_s = 0.0
+    h_m, rise_mps = exact(h_m, rise_mps, -g_mps2, remaining_s)
+    return h_m, rise_mps, has_bounced
+
 def replay(track: Track, x_m: float, v_mps: float, dt_s: float) -> Moved:
     """Follow the exact motion for a whole frame, from bounce to bounce, as a ball in a room.
 
@@ -354,39 +350,14 @@ def replay(track: Track, x_m: float, v_mps: float, dt_s: float) -> Moved:
     has_turned = v_mps * free_mps < 0  # its velocity has changed its sign
     if track.left_edge_m <= free_m <= track.right_edge_m and not has_turned:
         return free_m, free_mps, None
-    # Turn the track into a room. up is the direction away from the floor.
+    # Turn the track into a room, and back again. up is the direction away from the floor.
     up = -1 if track.a_mps2 > 0 else 1
     floor_m = track.floor_m()
-    room_m = track.right_edge_m - track.left_edge_m
-    g_mps2 = abs(track.a_mps2)
     h_m = up * (track.to_track(x_m) - floor_m)
-    rise_mps = up * v_mps
-    remaining_s = dt_s  # the part of the frame that is still to come
-    since_floor_s = 0.0  # how long ago the ball met the floor in this frame, if it has
-    has_met_floor = has_met_wall = False
-    while rise_mps != 0 or g_mps2 != 0:  # otherwise nothing moves the ball
-        wall, flight_s, speed_mps = next_bounce(h_m, rise_mps, g_mps2, room_m)
-        if flight_s > remaining_s:
-            break  # the frame ends before the ball gets there
-        remaining_s -= flight_s
-        since_floor_s += flight_s
-        has_met_wall = True
-        if wall == "ceiling":
-            h_m, rise_mps = room_m, -track.CR * speed_mps
-            continue
-        h_m, rise_mps = 0.0, track.CR * speed_mps
-        if rise_mps * rise_mps / 2 <= g_mps2 * GRAZE_M:
-            return floor_m, 0.0, free_m  # it lies still, as it cannot rise by GRAZE_M
-        if track.CR == 1 and has_met_floor:
-            # since_floor_s is the time from floor to floor. No speed is lost, so it will be the
-            # same again and again. Leave out all whole ones: what is left is the remainder of a
-            # division.
-            remaining_s = remaining_s % since_floor_s
-        has_met_floor = True
-        since_floor_s = 0.0
-    h_m, rise_mps = exact(h_m, rise_mps, -g_mps2, remaining_s)
+    h_m, rise_mps, has_bounced = follow(h_m, up * v_mps, abs(track.a_mps2), track.length_m(),
+                                        track.CR, dt_s)
     x_m = track.to_track(floor_m + up * h_m)  # round-off must not leave it beyond a wall
-    if not has_met_wall:
+    if not has_bounced:
         return x_m, up * rise_mps, None
     return x_m, up * rise_mps, free_m
 
@@ -468,7 +439,7 @@ def method_text(motion: str, correction: str) -> str:
 
 @dataclass(frozen=True)
 class Scene(Track):
-    """A track, and how it is filmed. (MEANINGS in section 11 says what each setting means.)"""
+    """A track, and how it is filmed. (SETTINGS in section 11 says what each setting means.)"""
 
     fps_target: float = 30.0
     use_observed_dt: bool = False
@@ -545,7 +516,7 @@ def fitted(scene: Scene, has_details: bool) -> Scene:
     m_to_px = scene.m_to_px * (columns - 1) / (scene.width_px - 1)
     return replace(scene, width_px=columns, m_to_px=max(m_to_px, 0.001))
 
-PYTHON = os.path.basename(sys.executable).removesuffix(".exe")  # python3 where there is no python
+PYTHON = os.path.basename(sys.executable).removesuffix(".exe")  # what runs this: python3, say
 
 def say(text: str) -> None:
     """Print a paragraph, as wide as the terminal but no wider than is good to read."""
@@ -574,7 +545,7 @@ def planned_length(scene: Scene, frame: int) -> float:
 STALL_S = 0.15  # a delay that everybody sees: people begin to notice one at about 0.1 s
 
 def paced(scene: Scene, keys: Keys | NoKeys, max_frames: int) -> Iterator[tuple[float, float]]:
-    """Wait until each frame is due, and give its dt_s and the observed frame rate.
+    """Wait until each frame is due, and give its dt_s and its frame rate.
 
     This is a generator: run() loops over it, and each yield gives the loop the next frame.
 
@@ -611,6 +582,7 @@ def paced(scene: Scene, keys: Keys | NoKeys, max_frames: int) -> Iterator[tuple[
         yield dt_s, fps
 
 REST_M = 0.003  # much less than a column
+MOST_REST_M = 0.05  # at 10 FPS and 9.81 m/s^2 the speed of a frame lets a car rise 4.9 cm
 REST_S = 0.3  # long enough to be seen
 REST_FRAMES = 10  # at a low frame rate 0.3 s may be a single frame
 
@@ -618,18 +590,19 @@ def rest_began_s(car: Car) -> float | None:
     """Since when the car is at rest, or None if it is not.
 
     A car is at rest if in each frame, for 0.3 s and ten frames, it is on the track, and its energy
-    is too small to rise 3 mm above its floor. A method may leave the car the speed that the
-    acceleration gives in a single frame. So the energy of this speed, (a * dt)^2/2, is allowed,
-    too. (Without an acceleration nothing is allowed: the speed must be 0.)
+    is too small to rise 3 mm above its floor. A method may leave the car the speed a * dt that its
+    acceleration gives in a single frame. This speed would let it rise |a| * dt^2/2, so this height
+    is allowed, too, up to 5 cm. (Without an acceleration the speed must be 0.)
     """
     track = car.track
+    g_mps2 = abs(track.a_mps2)
     now_s = began_s = car.frames[-1].t_s
     quiet_frames = 0
     for frame, frame_before in pairwise(reversed(car.frames)):  # from the last frame back
-        frame_mps = track.a_mps2 * (frame.t_s - frame_before.t_s)
-        most_energy = abs(track.a_mps2) * REST_M + frame_mps * frame_mps / 2
-        is_on_track = frame.x_m == track.to_track(frame.x_m)
-        if not is_on_track or track.energy(frame.x_m, frame.v_mps) > most_energy:
+        dt_s = frame.t_s - frame_before.t_s
+        most_m = min(REST_M + g_mps2 * dt_s * dt_s / 2, MOST_REST_M)
+        energy = track.energy(frame.x_m, frame.v_mps)
+        if energy > g_mps2 * most_m or not track.has_on_it(frame.x_m):
             break
         began_s = frame.t_s
         quiet_frames += 1
@@ -640,8 +613,7 @@ def rest_began_s(car: Car) -> float | None:
 
 def is_beyond_a_wall(car: Car) -> bool:
     """Whether the car was beyond a wall in all of its last ten frames, not only after a bounce."""
-    last = car.frames[-10:]
-    return all(frame.x_m != car.track.to_track(frame.x_m) for frame in last)
+    return not any(car.track.has_on_it(frame.x_m) for frame in car.frames[-10:])
 
 def cars_of(scene: Scene, unchanged: Scene | None) -> dict[str, Car]:
     """All cars that a film draws, by their marks, from back to front.
@@ -812,8 +784,7 @@ def measure(track: Track) -> dict[str, list[Point]]:
             points[letter].append(point)
             row += f"{point.error_m:9.1e}{point.cost_us:6.0f}"
         print(row, flush=True)
-    track_m = track.right_edge_m - track.left_edge_m
-    orders = [order_text(series, track_m).rjust(7) + " " * 8 for series in points.values()]
+    orders = [order_text(series, track.length_m()).rjust(7) + " " * 8 for series in points.values()]
     print("order" + "".join(orders).rstrip())
     print()
     return points
@@ -824,7 +795,7 @@ def order_text(series: list[Point], track_m: float) -> str:
     """The order of a method: at order 1 twice the rate divides the error by 2, at order 2 by 4."""
     if all(point.error_m < ROUND_OFF_M for point in series):
         return "none"
-    # An error of a tenth of the track cannot grow much more. So it tells nothing of the order.
+    # Errors as large as the track tell nothing of the order. So take those below a tenth of it.
     telling = [point for point in series if ROUND_OFF_M <= point.error_m < track_m / 10]
     if len(telling) < 3:
         return "?"  # too few for a straight line
@@ -924,7 +895,7 @@ def verdict(track: Track, column_m: float, fps: int, cut: int) -> str:
     """The letter of one run: X, S, H, G, L, P or -. (W needs several runs.)"""
     frames = simulate(track, fps, cut, max(1, fps // 10))  # every 0.1 s or, if longer, every frame
     late = frames[len(frames) * 3 // 4:]  # the last 5 of 20 s
-    track_m = track.right_edge_m - track.left_edge_m
+    track_m = track.length_m()
     # X: how far beyond a wall was the car?
     # (Positive numbers are beyond the right wall, negative ones beyond the left wall.)
     beyond_m = [frame.x_m - track.to_track(frame.x_m) for frame in frames]
@@ -934,8 +905,8 @@ def verdict(track: Track, column_m: float, fps: int, cut: int) -> str:
     late_beyond_m = beyond_m[-len(late):]
     if min(late_beyond_m) > 0 or max(late_beyond_m) < 0:
         return "S"
-    # H: did the true car lie still all through the last 5 s, but not this one? (A velocity of
-    # exactly 0 in each of these frames means that replay has laid the true car on its floor.)
+    # H: did the true car lie still all through the last 5 s, but not this one? (The velocity is
+    # exactly 0 in each of these frames only if replay has stopped the true car.)
     true_car_lies = all(frame.true_mps == 0 for frame in late)
     if true_car_lies and max(frame.error_m() for frame in late) > HOP_M:
         return "H"
@@ -968,9 +939,10 @@ def stability(scene: Scene, title: str) -> None:
     column_m = 1 / scene.m_to_px
     say(f"Stability. {title}")
     say("Which methods are right, and from which frame rate on? Each runs ten times for 20 "
-        "simulated seconds. A small letter: only some of the ten runs are so bad. 100 % of the "
-        "energy is v^2/2 at the start + the acceleration * the length of the track. Example 20 "
-        "says why a car gets too much energy (H, G), and example 19 why it gets too little (L).")
+        "simulated seconds, and is looked at every 0.1 s. A small letter: only some of the ten "
+        "runs are so bad. 100 % of the energy is v^2/2 at the start + the acceleration * the "
+        "length of the track. Example 20 says why hops get too much energy (H, G), and example 19 "
+        "why they get too little (L).")
     print()
     print(" " * 20 + "".join([str(fps).rjust(6) for fps in MAP_FPS]) + " FPS")
     for motion in MOTIONS:
@@ -1108,7 +1080,7 @@ def scene_text(scene: Scene) -> str:
         text += f", jitter={scene.jitter:.10g}"
     if scene.use_observed_dt:
         text += ", use_observed_dt=True"
-    if scene.x_m != scene.to_track(scene.x_m):
+    if not scene.has_on_it(scene.x_m):
         text += "; it starts beyond a wall"
     if scene.show_methods:
         for letter, (motion, correction) in METHODS.items():
@@ -1149,35 +1121,81 @@ def say_after(wanted: Wanted) -> None:
     following = wanted.number + 1 if wanted.number + 1 in EXAMPLES else "chart"
     say(f"Next: {PYTHON} airtrack.py {following}")
 
-# ==== 11. The command line ======================================================================
+# ==== 11. Settings ==============================================================================
+# What does each setting mean, and what may it be?
+
+class Setting(NamedTuple):
+    """A setting's meaning, and what is allowed: a number from least to largest, or a choice."""
+
+    meaning: str
+    least: float = 0
+    largest: float = 0
+    choices: tuple[Any, ...] = ()
+
+YES_OR_NO = (False, True)
+SETTINGS = {
+    "x_m": Setting("start position in m", -1000, 1000),
+    "v_mps": Setting("start velocity in m/s, to the right", -1000, 1000),
+    "a_mps2": Setting("acceleration in m/s^2, to the right", -1000, 1000),
+    "left_edge_m": Setting("position of the left wall in m", -1000, 1000),
+    "right_edge_m": Setting("position of the right wall in m", -1000, 1000),
+    "CR": Setting("speed after a bounce / speed before it", 0, 1),
+    "motion": Setting("how the car is moved", choices=tuple(MOTIONS)),
+    "correction": Setting("how a collision is settled", choices=tuple(ALL_CORRECTIONS)),
+    "fps_target": Setting("frames a second, 1/dt", 0.1, 1000),
+    "use_observed_dt": Setting("dt is how long the frame lasted", choices=YES_OR_NO),
+    "jitter": Setting("frames vary by up to this part", 0, 0.9),
+    "auto_off": Setting("stop when the car is at rest", choices=YES_OR_NO),
+    "m_to_px": Setting("zoom in columns for each m", 0.001, 1000),
+    "width_px": Setting("width of the picture in columns", 10, 1000),
+    "show_start_mark": Setting("draw a . at the start", choices=YES_OR_NO),
+    "show_collision_mark": Setting("draw a 0 where a move ended", choices=YES_OR_NO),
+    "show_exact_mark": Setting("draw an o for the true car", choices=YES_OR_NO),
+    "show_methods": Setting("draw a to e for five methods", choices=YES_OR_NO),
+}
+
+def allowed_text(name: str) -> str:
+    """What a setting may be, in words."""
+    setting = SETTINGS[name]
+    if setting.choices:
+        *others, last = [str(choice) for choice in setting.choices]
+        return f"{', '.join(others)} or {last}"
+    kind = "a whole number" if name == "width_px" else "a number"
+    return f"{kind} from {setting.least} to {setting.largest}"
+
+def is_allowed(name: str, value: Any) -> bool:
+    """Whether the setting of this name may have this value."""
+    setting = SETTINGS[name]
+    if setting.choices:
+        return value in setting.choices
+    return bool(setting.least <= value <= setting.largest)
+
+def check(track: Track) -> None:
+    """Raise ValueError for a Track or a Scene that is not allowed."""
+    for each in fields(track):
+        value = getattr(track, each.name)
+        if not is_allowed(each.name, value):
+            raise ValueError(f"{each.name} must be {allowed_text(each.name)}, not {value}")
+    left_m, right_m = track.left_edge_m, track.right_edge_m
+    if right_m - left_m < 0.01 - 1e-9:  # round-off: 2.21 - 2.2 is a little less than 0.01
+        raise ValueError(f"right_edge_m must be left_edge_m + 0.01 or more, so from "
+                         f"{left_m + 0.01:.10g} on, not {right_m}")
+    needed_by = f"with correction={track.correction}"
+    if track.correction in EXACT_ONLY and track.motion != "exact":
+        raise ValueError(f"motion must be exact {needed_by}, not {track.motion}: choose "
+                         "motion=exact or another correction")
+    if track.correction in EXACT_ONLY and not track.has_on_it(track.x_m):
+        raise ValueError(f"x_m must be from {left_m} to {right_m} {needed_by}, not {track.x_m}: "
+                         "choose a start on the track or another correction")
+
+# ==== 12. The command line ======================================================================
 # What does the user want?
 
 FRAMES = 50_000  # a film that nobody stops ends then
 COMMANDS = {"chart": chart, "stability": stability}
 DEFAULTS = vars(Scene())
-MEANINGS = {
-    "x_m": "start position in m",
-    "v_mps": "start velocity in m/s, to the right",
-    "a_mps2": "acceleration in m/s^2, to the right",
-    "left_edge_m": "position of the left wall in m",
-    "right_edge_m": "position of the right wall in m",
-    "CR": "speed after a bounce / speed before it",
-    "motion": "how the car is moved",
-    "correction": "how a collision is settled",
-    "fps_target": "frames a second, 1/dt",
-    "use_observed_dt": "dt is how long the frame lasted",
-    "jitter": "frames vary by up to this part",
-    "auto_off": "stop when the car is at rest",
-    "m_to_px": "zoom in columns for each m",
-    "width_px": "width of the picture in columns",
-    "show_start_mark": "draw a . at the start",
-    "show_collision_mark": "draw a 0 where a move ended",
-    "show_exact_mark": "draw an o for the true car",
-    "show_methods": "draw a to e for five methods",
-}
+OF_THE_TRACK = [each.name for each in fields(Track)]
 OF_THE_FRAMES = ["fps_target", "use_observed_dt", "jitter"]
-OF_THE_PICTURE = ["auto_off", "m_to_px", "width_px", "show_start_mark", "show_collision_mark",
-                  "show_exact_mark", "show_methods"]
 
 # What people type because other programs have it, and what it is called here:
 OTHER_NAMES = {"fps": "fps_target", "dt": "fps_target", "g": "a_mps2", "gravity": "a_mps2",
@@ -1188,7 +1206,7 @@ OTHER_NAMES = {"fps": "fps_target", "dt": "fps_target", "g": "a_mps2", "gravity"
 
 def hint(word: str) -> str:
     """What may have been meant by an unknown word."""
-    hints = OTHER_NAMES | {each.lower(): each for each in [*MEANINGS, *COMMANDS]}
+    hints = OTHER_NAMES | {each.lower(): each for each in [*SETTINGS, *COMMANDS]}
     hints |= {each: f"motion={each}" for each in MOTIONS}
     hints |= {each: f"correction={each}" for each in ALL_CORRECTIONS}
     # With a lower cutoff some hints are wrong: a_mps2 for grafik, as that is like gravity.
@@ -1196,35 +1214,35 @@ def hint(word: str) -> str:
     if not near:
         return "-h lists all that there are"
     name = hints[near[0]]
-    if name in MEANINGS:
-        name = f"{name}=VALUE ({MEANINGS[name]})"
+    if name in SETTINGS:
+        name = f"{name}=VALUE ({SETTINGS[name].meaning})"
     return f"did you mean {name}?"
 
 def name_and_text(word: str) -> tuple[str, str]:
     """The two parts of NAME=VALUE. Raises ValueError for any other word."""
     name, _, text = word.partition("=")
-    if name in MEANINGS and text:
+    if name in SETTINGS and text:
         return name, text
     name, _, _ = name.partition(":")
-    if name in MEANINGS:  # as in CR 0.7, CR = 0.7 or CR:0.7
+    if name in SETTINGS:  # as in CR 0.7, CR = 0.7 or CR:0.7
         raise ValueError(f"write {name}=VALUE as one word: {name} must be {allowed_text(name)}")
     raise ValueError(f"unknown word {word}: {hint(name)}")
 
 def value_of(name: str, text: str) -> Any:
     """The value of a setting, from what a user typed after NAME=. Raises ValueError."""
+    for choice in SETTINGS[name].choices:
+        if text.lower() == str(choice).lower():
+            return choice
     fault = f"{name} must be {allowed_text(name)}, not {text}"
-    if name in CHOICES:
-        return text
-    if isinstance(DEFAULTS[name], bool):
-        if text.lower() not in ("true", "false"):
-            raise ValueError(fault)
-        return text.lower() == "true"
     if "," in text:
-        raise ValueError(f"{fault}: write a decimal point, not a comma")
+        fault += ": write a decimal point, not a comma"
     try:
-        return int(text) if name == "width_px" else float(text)
+        value = int(text) if name == "width_px" else float(text)
     except ValueError:
         raise ValueError(fault) from None
+    if not is_allowed(name, value):
+        raise ValueError(fault)
+    return value
 
 def epilog() -> str:
     """What -h shows at its end: the examples, the methods and the settings."""
@@ -1236,8 +1254,8 @@ def epilog() -> str:
         row = f"  {name:9} {first_line}"
         lines.append(textwrap.fill(row, 80, subsequent_indent=" " * 12))
     lines += ["", "settings: default, meaning and what is allowed"]
-    for name, meaning in MEANINGS.items():
-        row = f"  {name:20}{DEFAULTS[name]!s:9}{meaning} ({allowed_text(name)})"
+    for name, setting in SETTINGS.items():
+        row = f"  {name:20}{DEFAULTS[name]!s:9}{setting.meaning} ({allowed_text(name)})"
         lines.append(textwrap.fill(row, 80, subsequent_indent=" " * 31))
     return "\n".join(lines)
 
@@ -1248,7 +1266,7 @@ def make_parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter)  # it leaves our lines as they are
     parser.add_argument("words", nargs="*", metavar="WORD", help="see above")
     parser.add_argument("-d", "-D", dest="details", action="store_true", help="as the word d")
-    parser.add_argument("--fast", action="store_true", help="no waiting, keys, colours or texts")
+    parser.add_argument("--fast", action="store_true", help="no waiting, keys or colours")
     parser.add_argument("--frames", type=int, metavar="N", default=FRAMES,
                         help=f"stop after N frames; without it, after {FRAMES}")
     return parser
@@ -1259,20 +1277,18 @@ def film_wanted(number: int, changes: dict[str, Any]) -> tuple[Scene, Scene | No
         return scene_of(OWN_SCENE.settings | changes), None, OWN_SCENE
     example = EXAMPLES[number]
     as_it_is = DEFAULTS | example.settings
-    different = [name for name, value in changes.items() if value != as_it_is[name]]
-    if set(different) <= set(OF_THE_PICTURE):
-        return scene_of(example.settings | changes), None, example
+    changed = {name for name in changes if changes[name] != as_it_is[name]}
+    has_other_frames = not changed.isdisjoint(OF_THE_FRAMES)
+    if changed.isdisjoint(OF_THE_TRACK) and not has_other_frames:
+        return scene_of(example.settings | changes), None, example  # only the picture changed
     # Nobody knows what happens in a changed example. So the film shows its true car.
     scene = scene_of(example.settings | {"show_exact_mark": True} | changes)
-    if set(different) & set(OF_THE_FRAMES):
+    if has_other_frames:
         return scene, None, CHANGED_FRAMES  # a + would need frames of its own
     return scene, scene_of(example.settings), CHANGED
 
-def command_wanted(command: str, number: int, changes: dict[str, Any],
-                   options: argparse.Namespace) -> Scene:
-    """The scene of a chart or a map. Raises ValueError for what a command does not take."""
-    if options.details or options.fast or options.frames != FRAMES:
-        raise ValueError(f"{command} is no film: it takes no d, --fast or --frames")
+def command_wanted(command: str, number: int, changes: dict[str, Any]) -> Scene:
+    """The scene of a chart or a map. Raises ValueError for a setting that it does not take."""
     refused = [name for name in changes if name not in FOR_COMMANDS]
     if refused:
         raise ValueError(f"{command} takes no {refused[0]}: it chooses methods and frame rates "
@@ -1284,9 +1300,10 @@ def command_wanted(command: str, number: int, changes: dict[str, Any],
 def wanted_by(options: argparse.Namespace, unknown_options: list[str]) -> Wanted:
     """What the words and options of the command line ask for. Raises ValueError."""
     numbers, commands, typed = [], [], {}
+    has_details = options.details
     for word in [*options.words, *unknown_options]:
         if word in ("d", "D"):
-            options.details = True
+            has_details = True
         elif word in COMMANDS:
             commands.append(word)
         elif word.removeprefix("-").isdecimal():  # -5 is a number, too
@@ -1309,8 +1326,11 @@ def wanted_by(options: argparse.Namespace, unknown_options: list[str]) -> Wanted
     if command is None:
         scene, unchanged, texts = film_wanted(number, changes)
     else:
-        scene = command_wanted(command, number, changes, options)
-    has_details = options.details or number == 0  # example 0 always shows them
+        if has_details or options.fast or options.frames != FRAMES:
+            raise ValueError(f"{command} is no film: it takes no d, --fast or --frames")
+        scene = command_wanted(command, number, changes)
+    if number == 0:
+        has_details = True  # as the lesson's one-pager does
     return Wanted(command, number, typed, scene, unchanged, texts, has_details, options.fast,
                   options.frames)
 
@@ -1330,7 +1350,7 @@ def main(argv: list[str] | None = None) -> int:
             COMMANDS[wanted.command](wanted.scene, title)
         sys.stdout.flush()
     except KeyboardInterrupt:
-        return 130  # what shells expect after Ctrl-C
+        return 130  # the status of a program that Ctrl-C has ended
     except OSError as fault:  # the output takes no more
         # Python prints what is left when it ends. From here on this goes nowhere.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
