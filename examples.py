@@ -57,9 +57,9 @@ EXAMPLES = {
         "bounce, guess: what part of the way will it go back?",
         "About half. It starts 1.75 m from the left wall, and gets back to 0.87 m, 0.46 m and "
         "0.21 m. In a bounce it keeps 70 % of its speed, so 0.7^2 = 0.49 of its energy, and the "
-        "energy decides how far it gets. When it has been at rest for 0.3 s, in "
-        "frame 251, the film stops by itself. If you type d after the number, as in 1 d, each "
-        "line shows figures."),
+        "energy decides how far it gets. When it has been at rest for 0.3 s, in frame 251, the "
+        "film stops by itself. If you type d after the number, as in 1 d, each line shows "
+        "figures."),
     2: Example("No correction", {
         "x_m": 1.65, "v_mps": 2.7, "CR": 1.0, "correction": "none", "show_collision_mark": False},
         "Nothing puts the car back on the track after a collision. Only its velocity is reversed. "
@@ -145,11 +145,11 @@ EXAMPLES = {
         "faster and faster. Is there a last one? When does the car rest?",
         "There is no last bounce. In truth the car bounces infinitely often before t = 11.91 s, "
         "the Zeno point, and then it lies still. The film calls it at rest from 10.99 s on, "
-        "because then it cannot rise 3 mm. Rewind can settle only one bounce a frame. So its car "
-        "never lies still: with auto_off=False it makes hops of some mm for ever, too low to see. "
-        "With correction=replay it lies still from the Zeno point on. Rewind is good enough for "
-        "this scene: until the film ends it is at most about 4.2 mm off, less than a quarter of a "
-        "column. On a busy computer all these figures may be a little different."),
+        "because its energy is small enough then. Rewind can settle only one bounce a frame. So "
+        "its car never lies still: with auto_off=False it makes hops of some mm for ever, too low "
+        "to see. With correction=replay it lies still from the Zeno point on. Rewind is good "
+        "enough for this scene: until the film ends it is at most about 4.2 mm off, less than a "
+        "quarter of a column. On a busy computer all these figures may be a little different."),
     13: Example("Forward Euler beside the truth", {
         "x_m": 0.25, "v_mps": 2.48, "a_mps2": -2.0, "CR": 1.0, "motion": "forward",
         "fps_target": 10.0, "show_exact_mark": True},
@@ -218,13 +218,13 @@ EXAMPLES = {
         "Each bounce takes 20 % of the speed. Which comes to rest, the o or the *? Count the hops "
         "of the * as in example 19. Watch for 10 s.",
         "Only the o comes to rest: in truth it lies still from t = 7.05 s on, after infinitely "
-        "many bounces. (The table calls it at rest from 6.10 s on, because then it cannot rise 3 "
-        "mm.) The hops of the * take 14, 12, 10 lines and, from frame 48 on, 9 for ever. Each hop "
-        "ends below the floor, because the bounce is found late. Then the rebound lifts the car, "
-        "and does not slow it. So in each hop it comes back faster than it left, by up to 0.4 "
-        "m/s. But a bounce takes 20 % of its speed. At 1 m/s this is 0.2 m/s, as much as such a "
-        "hop gives. So it stays near 1 m/s. A higher frame rate makes this speed lower, but not "
-        "0. The cure is correction=conserve: with it the * comes to rest, too."),
+        "many bounces. (The table calls it at rest from 6.10 s on, because its energy is small "
+        "enough then.) The hops of the * take 14, 12, 10 lines and, from frame 48 on, 9 for ever. "
+        "Each hop ends below the floor, because the bounce is found late. Then the rebound lifts "
+        "the car, and does not slow it. So in each hop it comes back faster than it left, by up "
+        "to 0.4 m/s. But a bounce takes 20 % of its speed. At 1 m/s this is 0.2 m/s, as much as "
+        "such a hop gives. So it stays near 1 m/s. A higher frame rate makes this speed lower, "
+        "but not 0. The cure is correction=conserve: with it the * comes to rest, too."),
     21: Example("Five methods on one track", EXACT | {"show_methods": True},
         "The * is the car of example 10. Which letter leaves it first, which gets furthest away, "
         "and which two are never seen? Watch for 20 s.",

@@ -1,7 +1,9 @@
-"""A clock that a test sets, keys that it presses, and what a run printed meanwhile."""
+"""A clock that a test sets, and keys that it presses at set moments."""
 
 import re
+import signal
 from collections.abc import Callable
+from contextlib import nullcontext
 from itertools import pairwise
 from types import SimpleNamespace
 
@@ -17,58 +19,58 @@ class Clock:
     """A clock that goes on only while somebody sleeps, or when a test says so."""
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
-        self.now_s = 1000.0
-        self.frames_s: list[float] = []  # when each frame was drawn
-        self.when_drawn: Callable[[int], float] = lambda frame: 1e-5  # how long that takes
-        self.due: list[tuple[float, str]] = []  # when keys are pressed, and which
+        self.now_s = self.began_s = 1000.0
+        self.frames_s: list[float] = []  # when each frame was drawn, from the start of the run
+        self.when_drawn: Callable[[int], float] = lambda frame: 0.0  # how long drawing it takes
+        self.due: dict[float, str] = {}  # the keys still to be pressed, and when
         stand_in = SimpleNamespace(perf_counter=lambda: self.now_s, sleep=self.sleep)
         monkeypatch.setattr(airtrack, "time", stand_in)
         monkeypatch.setattr(examples, "time", stand_in)
-        monkeypatch.setattr(examples, "HAS_TERMINAL", False)
+        monkeypatch.setattr(examples, "HAS_TERMINAL", True)
+        monkeypatch.setattr(examples, "taken_terminal", nullcontext)
         monkeypatch.setattr(examples, "terminal_keys", self.pressed)
         render_track = airtrack.render_track
 
         def render(*args: object) -> str:
-            self.frames_s.append(self.now_s)
+            self.frames_s.append(self.now_s - self.began_s)
             self.now_s += self.when_drawn(len(self.frames_s))
             return render_track(*args)  # type: ignore[arg-type]
 
         monkeypatch.setattr(airtrack, "render_track", render)
 
+    def start(self, keys: dict[float, str]) -> None:
+        """Begin a run. The keys are pressed so many s later."""
+        self.began_s, self.frames_s, self.due = self.now_s, [], dict(keys)
+
     def sleep(self, seconds: float) -> None:
         assert seconds >= 0
         self.now_s += seconds + 60e-6  # a little too long, as real ones are
 
-    def press(self, **keys: str) -> None:
-        """t4_05="p" presses p 4.05 s from now. The frames are counted anew."""
-        self.frames_s = []
-        self.due = [(self.now_s + float(at[1:].replace("_", ".")), key) for at, key in keys.items()]
-
-    def pressed(self) -> str:
-        keys = ""
-        while self.due and self.now_s >= self.due[0][0]:
-            keys += self.due.pop(0)[1]
+    def pressed(self) -> list[str]:
+        """The keys that were pressed since the last call. Ctrl-C comes as a signal."""
+        keys = []
+        for at_s in [at_s for at_s in self.due if at_s <= self.now_s - self.began_s]:
+            for key in self.due.pop(at_s):
+                if key == "\x03":
+                    signal.raise_signal(signal.SIGINT)
+                else:
+                    keys.append(key)
         return keys
 
     def lengths_s(self) -> list[float]:
-        return [b - a for a, b in pairwise(self.frames_s)]
+        """How long each frame lasted."""
+        return [after_s - before_s for before_s, after_s in pairwise(self.frames_s)]
+
+    def frames_between(self, from_s: float, to_s: float) -> int:
+        return sum(from_s <= at_s < to_s for at_s in self.frames_s)
 
 
-def positions_m(out: str) -> list[float]:
-    """The x of every frame in what was printed."""
-    return [float(x) for x in re.findall(r"x = +(-?[0-9.]+), v", out)]
+def steps_s(out: str) -> list[float]:
+    """How much time has passed for a free car at 10 m/s from each frame to the next."""
+    places_m = [float(x) for x in re.findall(r"x = +(-?[0-9.]+), v", out)]
+    return [(after_m - before_m) / 10 for before_m, after_m in pairwise(places_m)]
 
 
-def plain(out: str) -> str:
+def plain(text: str) -> str:
     """A text without its line breaks."""
-    return " ".join(out.split())
-
-
-def ending(out: str) -> str:
-    """The line that says why a film has stopped."""
-    return next(line for line in out.splitlines() if line.startswith("Stopped"))
-
-
-def last_words(out: str) -> str:
-    """What stands behind the table, without its line breaks."""
-    return plain(out.partition("\nThe hops in frames")[2].partition("\n\n")[2])
+    return " ".join(text.split())

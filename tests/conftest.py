@@ -1,12 +1,12 @@
 """What every test starts from: the same environment, wherever it is started."""
 
 import os
-from contextlib import nullcontext
+import signal
+from collections.abc import Iterator
 
 import pytest
 from hypothesis import HealthCheck, settings
 
-import examples
 from airtrack import main
 from clock import Clock, Play
 from films import CLEAN
@@ -17,12 +17,15 @@ settings.load_profile("airtrack")
 
 
 @pytest.fixture(autouse=True)
-def clean_environment(monkeypatch: pytest.MonkeyPatch) -> None:
-    """No display, no width, no colours but those that a test sets."""
+def clean_environment(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """No display, no width, no colours but those that a test sets. And Ctrl-C works."""
     for name in set(os.environ) - set(CLEAN) - {"PYTEST_CURRENT_TEST"}:
         monkeypatch.delenv(name)
     for name, value in CLEAN.items():
         monkeypatch.setenv(name, value)
+    found = signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored in the background
+    yield
+    signal.signal(signal.SIGINT, found)
 
 
 @pytest.fixture
@@ -33,17 +36,9 @@ def clock(monkeypatch: pytest.MonkeyPatch) -> Clock:
 
 @pytest.fixture
 def play(clock: Clock, capsys: pytest.CaptureFixture[str]) -> Play:
-    """Run a command line, pressing keys at set moments: what was printed."""
-    def played(words: str, **keys: str) -> str:
-        clock.press(**keys)
+    """Run a command line, and press keys at set moments, in s. Returns what was printed."""
+    def played(words: str, keys: dict[float, str] | None = None) -> str:
+        clock.start(keys or {})
         assert main(words.split()) == 0
         return capsys.readouterr().out
     return played
-
-
-@pytest.fixture
-def at_a_terminal(clock: Clock, monkeypatch: pytest.MonkeyPatch) -> None:
-    """As if input and output were a terminal with keys."""
-    monkeypatch.setattr(examples, "HAS_TERMINAL", True)
-    monkeypatch.setattr(examples, "taken_terminal", nullcontext)
-    monkeypatch.setattr(examples, "print_for_now", lambda text: print(text, end="\r"))

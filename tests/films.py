@@ -15,8 +15,8 @@ from typing import Any, NamedTuple
 
 import pytest
 
-from airtrack import Scene, main, planned_length, step, truth_of
-from examples import EXAMPLES
+from airtrack import Car, Scene, main, planned_length, step, truth_of
+from examples import EXAMPLES, OWN_SCENE
 
 if sys.platform != "win32":
     import fcntl
@@ -85,6 +85,18 @@ def environment(**changes: str | None) -> dict[str, str]:
     """A clean environment with the changes (None: unset)."""
     wanted: dict[str, str | None] = {**CLEAN, **changes}
     return {name: value for name, value in wanted.items() if value is not None}
+
+
+def filmed(number: int, frames: int, **changes: Any) -> Car:
+    """The car of an example, or of one's own scene, with changes, after a --fast film."""
+    scene = Scene(**EXAMPLES.get(number, OWN_SCENE).settings | changes)
+    car = Car(scene)
+    for frame in range(1, frames + 1):
+        if scene.use_observed_dt:
+            car.move(planned_length(scene, frame))
+        else:
+            car.move(1 / scene.fps_target)
+    return car
 
 
 State = tuple[float, float, float | None]  # x_m, v_mps (or the true x_m) and mark_m

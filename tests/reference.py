@@ -1,49 +1,51 @@
 """The car's motion in 60-digit decimals, written independently of the program.
 
-One bounce after the other, each found with the textbook root of g t^2/2 + u t - d = 0, whose
-cancellation does no harm in 60 digits. No summed hops: the bounces are followed one by one, until
-a hop lasts less than 1e-30 s.
+Each flight ends at the textbook root of g t^2/2 + u t - d = 0, as its cancellation does no harm in
+60 digits. The bounces are followed one by one, until a hop lasts less than 1e-30 s.
 """
 
-from collections.abc import Iterator
 from decimal import Context, Decimal, localcontext
 
-from airtrack import Scene
+from airtrack import Track
 
 PRECISE = Context(prec=60)
 TOO_SHORT_S = Decimal("1e-30")
+NEVER_S = Decimal("Infinity")
 
 
-def states(scene: Scene, times_s: list[Decimal]) -> Iterator[tuple[Decimal, Decimal]]:
+def states(track: Track, times_s: list[Decimal]) -> list[tuple[Decimal, Decimal]]:
     """Position and velocity at each of the times, which ascend."""
+    found = []
     with localcontext(PRECISE):
-        x, v, a = Decimal(scene.x_m), Decimal(scene.v_mps), Decimal(scene.a_mps2)
-        walls = {-1: Decimal(scene.left_edge_m), 1: Decimal(scene.right_edge_m)}
-        bounciness = Decimal(scene.CR)
-        now = Decimal(0)
-        for moment in times_s:
+        x_m, v_mps, a_mps2 = Decimal(track.x_m), Decimal(track.v_mps), Decimal(track.a_mps2)
+        walls_m = {-1: Decimal(track.left_edge_m), 1: Decimal(track.right_edge_m)}
+        now_s = Decimal(0)
+        for moment_s in times_s:
             while True:
-                flight, side = min((time_to(walls[s], s, x, v, a), s) for s in walls)
-                if now + flight > moment:
+                flights_s = {side: time_to(walls_m[side], side, x_m, v_mps, a_mps2)
+                             for side in walls_m}
+                side = min(flights_s, key=flights_s.__getitem__)
+                if now_s + flights_s[side] > moment_s:
                     break
-                now += flight
-                speed_there = v + a * flight
-                x, v = walls[side], -bounciness * speed_there
-                if side * a > 0 and 2 * abs(v) < TOO_SHORT_S * abs(a):
-                    v = a = Decimal(0)  # at rest on the wall, for good
-                elif v == 0 and side * a >= 0:
-                    a = Decimal(0)
-            t = moment - now
-            x, v, now = x + v * t + a * t * t / 2, v + a * t, moment
-            yield x, v
+                now_s += flights_s[side]
+                x_m = walls_m[side]
+                v_mps = -Decimal(track.CR) * (v_mps + a_mps2 * flights_s[side])
+                if side * a_mps2 > 0 and 2 * abs(v_mps) < TOO_SHORT_S * abs(a_mps2):
+                    v_mps = a_mps2 = Decimal(0)  # at rest on the wall, for good
+            left_s = moment_s - now_s
+            x_m += v_mps * left_s + a_mps2 * left_s * left_s / 2
+            v_mps += a_mps2 * left_s
+            now_s = moment_s
+            found.append((x_m, v_mps))
+    return found
 
 
-def time_to(wall: Decimal, side: int, x: Decimal, v: Decimal, a: Decimal) -> Decimal:
+def time_to(wall_m: Decimal, side: int, x_m: Decimal, v_mps: Decimal, a_mps2: Decimal) -> Decimal:
     """How long the car flies until it goes outwards through the wall."""
-    d, u, g = side * (wall - x), side * v, side * a
+    d, u, g = side * (wall_m - x_m), side * v_mps, side * a_mps2
     if g == 0:
-        return d / u if u > 0 else Decimal("Infinity")
+        return d / u if u > 0 else NEVER_S
     discriminant = u * u + 2 * g * d
-    if discriminant < 0 or (g < 0 and (u <= 0 or discriminant < Decimal("1e-40"))):
-        return Decimal("Infinity")
+    if g < 0 and (u <= 0 or discriminant < Decimal("1e-40")):
+        return NEVER_S  # it moves away, or turns before the wall or on it
     return (discriminant.sqrt() - u) / g

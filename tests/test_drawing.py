@@ -1,81 +1,105 @@
-"""One line of the film: marks, columns and details."""
+"""One line of the film: which mark stands in which column, and how the picture fits."""
 
+import sys
 from dataclasses import replace
-from typing import Any
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
-from airtrack import METHODS, Scene, cars_of, details_text, render_track
-from films import film
+from airtrack import Scene, cars_of, render_track
+from films import details, film
 
 Capture = pytest.CaptureFixture[str]
-ALL_MARKS: dict[str, Any] = {"show_start_mark": True, "show_collision_mark": True,
-                             "show_exact_mark": True, "show_methods": True}
-near = st.sampled_from([0.25, 1.0, 2.2]) | st.floats(-3, 3)  # so that marks meet
-metres = near | st.floats(-1e6, 1e6)
 
 
-@given(places=st.lists(metres, min_size=8, max_size=8), hit_m=metres | st.none(), start_m=near,
-       left_m=st.sampled_from([0.25, -0.5]) | st.floats(-3, 3), track_m=st.floats(0.01, 5),
-       width_px=st.integers(10, 200), m_to_px=st.floats(1, 20))
-@settings(max_examples=300)
-def test_every_column_shows_the_first_of_the_marks_that_belong_there(
-        places: list[float], hit_m: float | None, start_m: float, left_m: float, track_m: float,
-        width_px: int, m_to_px: float) -> None:
-    scene = Scene(x_m=start_m, left_edge_m=left_m, right_edge_m=left_m + track_m,
-                  width_px=width_px, m_to_px=m_to_px, **ALL_MARKS)
-    cars = cars_of(scene, replace(scene, CR=0.5))  # a changed example: the film has all of them
-    places_m = dict(zip(cars, places, strict=True))
-    first_m = min(0, left_m)
-    ranked = [(mark, places_m[mark]) for mark in "*+oedcba"]
-    ranked += [("|", left_m), ("|", left_m + track_m), (".", start_m)]
-    if hit_m is not None:
-        ranked.append(("0", hit_m))
-    columns = [(mark, round((x_m - first_m) * m_to_px)) for mark, x_m in ranked]
-    _, car_px = columns[0]
-    if car_px < 0:
-        columns[0] = "<", 0
-    elif car_px >= width_px:
-        columns[0] = ">", width_px - 1
-    line = render_track(scene, places_m, hit_m)
+@pytest.mark.parametrize(("left_m", "line"), [
+    (0.3, "   |o +  . a   0    |     *   "),  # the picture begins at 0
+    (-0.2, "|     o +  . a   0    |     * ")])  # the picture begins at the left wall
+def test_each_mark_stands_in_its_column(left_m: float, line: str) -> None:
+    scene = Scene(x_m=0.9, left_edge_m=left_m, right_edge_m=2.0, m_to_px=10, width_px=len(line),
+                  show_start_mark=True)
+    places_m = {"a": 1.1, "o": 0.4, "+": 0.6, "*": 2.6}
+    assert render_track(scene, places_m, 1.5) == line
+
+
+@given(x_m=st.floats(-3, 3) | st.floats(-1e6, 1e6), left_m=st.floats(-3, 3),
+       m_to_px=st.floats(0.1, 60), width_px=st.integers(10, 200))
+def test_the_car_is_in_the_nearest_column_or_an_arrow_at_the_edge_beyond_which_it_is(
+        x_m: float, left_m: float, m_to_px: float, width_px: int) -> None:
+    scene = Scene(left_edge_m=left_m, right_edge_m=1000, m_to_px=m_to_px, width_px=width_px)
+    line = render_track(scene, {"*": x_m}, None)
     assert len(line) == width_px
-    for column, shown in enumerate(line):
-        here = [mark for mark, at_px in columns if at_px == column]
-        assert shown == (here[0] if here else " ")
+    columns = (x_m - min(0, left_m)) * m_to_px
+    car, = set(line) & set("*<>")
+    if car == "<":
+        assert line[0] == "<"
+        assert columns < 0
+    elif car == ">":
+        assert line[-1] == ">"
+        assert columns > width_px - 1
+    else:
+        assert line.index("*") == pytest.approx(columns, abs=0.5 + 1e-9)
+
+
+def test_where_marks_meet_the_one_that_is_first_in_this_order_is_seen() -> None:
+    order = "*+oedcba|.0"
+    for number, first in enumerate(order):
+        there = order[number:]
+        scene = Scene(x_m=1.0 if "." in there else 1.5, left_edge_m=1.0 if "|" in there else 0.5,
+                      m_to_px=10, show_start_mark=True, show_exact_mark=True, show_methods=True)
+        cars = cars_of(scene, replace(scene, CR=0.5))
+        places_m = {mark: 1.0 if mark in there else 1.5 for mark in cars}
+        assert render_track(scene, places_m, 1.0)[10] == first
 
 
 @pytest.mark.parametrize(("setting", "mark"), [
     ("show_start_mark", "."), ("show_collision_mark", "0"), ("show_exact_mark", "o"),
-    ("show_methods", "a"), ("show_methods", "e")])
-def test_a_mark_that_is_off_is_not_drawn(setting: str, mark: str) -> None:
+    ("show_methods", "c")])
+def test_a_mark_that_is_off_is_not_drawn(setting: str, mark: str, capsys: Capture) -> None:
     for shown in (True, False):
-        scene = Scene(**ALL_MARKS | {setting: shown})
-        places_m = {each: 0.4 + number / 10 for number, each in enumerate(cars_of(scene, None))}
-        assert (mark in render_track(scene, places_m, 1.8)) is shown
+        lines = film(capsys, "9", "CR=0.9", f"{setting}={shown}", "--frames", "30").lines
+        assert (mark in "".join(lines)) is shown
 
 
-@pytest.mark.parametrize(("words", "start", "seen"), [
-    ("9 show_exact_mark=True", "", "bco"), ("14", "", "e"),
-    ("4 m_to_px=100", "x_m=0.25", "abe")])  # 4: from beyond a wall the letters start on it
-def test_each_letter_stands_where_the_film_of_its_method_has_the_car(
-        words: str, start: str, seen: str, capsys: Capture) -> None:
-    asked = [*words.split(), "--frames", "200", "auto_off=False"]
-    shown = film(capsys, *asked, "show_methods=True").lines
-    marks = "".join(METHODS)
-    for letter, (motion, correction) in METHODS.items():
-        alone = film(capsys, *asked, f"motion={motion}", f"correction={correction}", *start.split())
-        for line, its in zip(shown, alone.lines, strict=True):
-            column = its.find("*")  # -1: out of the picture
-            hides = "*<>o" + marks[marks.index(letter) + 1:]
-            assert line.find(letter) == column or (
-                letter not in line and (column == -1 or line[column] in hides))
-    assert set(seen) <= set("".join(shown)) - set(" |*<>.0")
+def test_the_details_are_those_of_the_picture_and_of_the_motion(capsys: Capture) -> None:
+    lines = film(capsys, "17", "d", "--frames", "60").lines
+    x_before_m, v_before_mps = 2.0, 0.0  # example 17: exact motion at 10 FPS, 55 columns/m
+    for line in lines:
+        x_m, v_mps = details(line)
+        err_m = float(line.partition("err = ")[2])
+        assert line.index("*") == pytest.approx(55 * x_m, abs=0.8)  # half a column, half a cm
+        true_column = line.find("o", 0, 135)
+        if true_column == -1:
+            true_column = line.index("*")  # the * covers it
+        assert (line.index("*") - true_column) / 55 == pytest.approx(err_m, abs=1 / 55)
+        if "0" not in line[:135]:
+            moved_m = (v_before_mps + v_mps) / 2 * 0.1
+            assert x_m - x_before_m == pytest.approx(moved_m, abs=0.011)
+        x_before_m, v_before_mps = x_m, v_mps
 
 
-@pytest.mark.parametrize(("true_m", "text"), [
-    (None, "x =  -1.25, v = 12.50, FPS =  60"),
-    (-1.0, "x =  -1.25, v = 12.50, FPS =  60, err = -2.50e-01")])
-def test_the_details(true_m: float | None, text: str) -> None:
-    assert details_text(-1.25, 12.5, 59.6, true_m) == text
+def wall_columns(lines: list[str]) -> list[int]:
+    """The columns in which any of the lines shows a wall."""
+    pairs = [(column, mark) for line in lines for column, mark in enumerate(line)]
+    return sorted({column for column, mark in pairs if mark == "|"})
+
+
+@pytest.mark.parametrize(("words", "columns"), [
+    ("1", [14, 121]), ("1 left_edge_m=0.3", [16, 121]),  # 55 columns/m show them
+    ("99 right_edge_m=50", [1, 134]), ("99 left_edge_m=-40 right_edge_m=-1 x_m=-2", [0, 134]),
+    ("99 width_px=20", [2, 19]), ("99 m_to_px=100", [25])])
+def test_the_zoom_shows_the_right_wall_unless_the_user_chose_it(
+        words: str, columns: list[int], capsys: Capture) -> None:
+    assert wall_columns(film(capsys, *words.split(), "--frames", "30").lines) == columns
+
+
+@pytest.mark.parametrize("columns", [60, 80, 100, 250])
+@pytest.mark.parametrize("words", ["1", "1 d", "0", "17 d", "99 right_edge_m=40 x_m=9 d"])
+def test_in_a_narrow_terminal_lines_do_not_wrap_and_show_both_walls(
+        words: str, columns: int, monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
+    monkeypatch.setattr(sys.stdout, "isatty", lambda: True)
+    monkeypatch.setenv("COLUMNS", str(columns))
+    lines = film(capsys, *words.split(), "--frames", "60").lines
+    assert max(len(line) for line in lines) <= columns
+    assert len(wall_columns(lines)) == 2
