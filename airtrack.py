@@ -184,8 +184,8 @@ def rewind(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> 
     wall. So in example 10, where CR is 1, the car comes back to its start each time. Rewind cannot
     settle a second bounce. So a car that should lie still on the wall keeps a velocity into it. In
     frames of one length this velocity is a dt/(1 + CR). If the car turns beyond the wall and is
-    back on the track when the frame ends, no collision is found: a missed event (example 18). If a
-    move goes further beyond the wall than the track is long, rewind may throw the car out, too.
+    back on the track when the frame ends, no collision is found: a missed event (example 18). In a
+    frame in which the car should cross the whole track, rewind may throw it out, too.
     """
     # How long ago did the car pass the wall, and how fast? Let time run backwards: the car moves
     # out of the wall. Its velocity is turned round, so outwards it is inward_mps. Its acceleration
@@ -423,10 +423,10 @@ class Car:
 #
 # Methods a to d need short frames, because they look only at the end of a frame, and settle one
 # bounce there. They miss a bounce if the car is back on the track when the frame ends (example 18).
-# If a move ends further beyond a wall than the track is long, a, b and d may throw the car out at
-# the other end. Methods c and e never do. Method e is right in frames of any length. Why not always
-# take e? It needs a constant acceleration, as b to d do. And it needs to know all walls at once, to
-# find the next bounce. The others settle only the wall that a move has met.
+# In long frames a, b and d may even throw the car out at the other end (example 14). Methods c and
+# e never do. Method e is right in frames of any length. Why not always take e? It needs a constant
+# acceleration, as b to d do. And it needs to know all walls at once, to find the next bounce. The
+# others settle only the wall that a move has met.
 METHODS = {"a": ("backward", "rebound"), "b": ("exact", "rebound"), "c": ("exact", "conserve"),
            "d": ("exact", "rewind"), "e": ("exact", "replay")}
 
@@ -905,10 +905,10 @@ def verdict(track: Track, column_m: float, fps: int, cut: int) -> str:
     late_beyond_m = beyond_m[-len(late):]
     if min(late_beyond_m) > 0 or max(late_beyond_m) < 0:
         return "S"
-    # H: did the true car lie still all through the last 5 s, but not this one? (The velocity is
-    # exactly 0 in each of these frames only if replay has stopped the true car.)
-    true_car_lies = all(frame.true_mps == 0 for frame in late)
-    if true_car_lies and max(frame.error_m() for frame in late) > HOP_M:
+    # H: did the true car lie still all through the last 5 s, but not this one? (Its energy is
+    # exactly 0 if replay has laid it on its floor.)
+    true_energies = [track.energy(frame.true_m, frame.true_mps) for frame in late]
+    if max(true_energies) == 0 and max(frame.error_m() for frame in late) > HOP_M:
         return "H"
     # G, L and P are for a car that is over a column off.
     if max(frame.error_m() for frame in frames) <= column_m:
@@ -917,7 +917,6 @@ def verdict(track: Track, column_m: float, fps: int, cut: int) -> str:
     # what the acceleration could add on the whole length of the track.
     all_energy = track.v_mps**2 / 2 + abs(track.a_mps2) * track_m
     energies = [track.energy(frame.x_m, frame.v_mps) for frame in late]
-    true_energies = [track.energy(frame.true_m, frame.true_mps) for frame in late]
     gain = fmean(energies) - fmean(true_energies)
     if gain > 0.01 * all_energy:
         return "G"
@@ -962,8 +961,9 @@ def stability(scene: Scene, title: str) -> None:
 # Why do some cars hop for ever, and why do others lie still too soon?
 # There is no code here. You need pen and paper.
 #
-# A car hops on its floor, and does not meet the other wall. Up is away from the floor, g is the
-# size of a, and all frames last dt. So each frame adds g * dt to the velocity downwards.
+# A car hops on its floor. It has started on the track, and does not meet the other wall. Up is away
+# from the floor, g is the size of a, and all frames last dt. So each frame adds g * dt to the
+# velocity downwards.
 #
 # A hop lasts from a frame in which a collision is found to the next such frame. It begins upwards,
 # at the speed u, and ends downwards, at the speed w. Here is a hop with exact + surface. g is 4
@@ -1012,7 +1012,9 @@ def stability(scene: Scene, title: str) -> None:
 #     exact        0 to 1      0 to 2
 #     backward    -1 to 0     -1 to 1
 #
-# (The tests check this table in every hop of many films.)
+# (The tests check this table in every hop of many films. In hops of one frame k may be larger. So
+# at 1 FPS a car with backward + surface lies on its floor, keeps a velocity, and has a G in the
+# map.)
 #
 # What does k do?
 #     k > 0   The car gets speed from nothing. At CR = 1 it hops higher and higher (G in the map).

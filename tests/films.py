@@ -1,6 +1,7 @@
 """Runs of the program, for the tests: in this process, or as a user starts it."""
 
 import contextlib
+import io
 import os
 import re
 import select
@@ -65,14 +66,18 @@ class Film(NamedTuple):
     table: list[str]
 
 
-def film(capsys: pytest.CaptureFixture[str], *words: str) -> Film:
-    """Run main with --fast and the words. Empty lines part header, film and table."""
-    assert main([*words, "--fast"]) == 0
-    out, err = capsys.readouterr()
-    assert err == ""
-    header, shown, table = out.split("\n\n")
-    *lines, ending = shown.splitlines()
+def shown(words: str) -> Film:
+    """What a command line with --fast shows. Empty lines part header, film and table."""
+    with contextlib.redirect_stdout(io.StringIO()) as out:
+        assert main([*words.split(), "--fast"]) == 0
+    header, frames, table = out.getvalue().split("\n\n")
+    *lines, ending = frames.splitlines()
     return Film(" ".join(header.split()), lines, ending, table.splitlines())
+
+
+def film(_: pytest.CaptureFixture[str], *words: str) -> Film:
+    """The same for words one by one."""
+    return shown(" ".join(words))
 
 
 def details(line: str) -> tuple[float, float]:
