@@ -1033,10 +1033,10 @@ def stability(scene: Scene, title: str) -> None:
 # = 0.8. Each whole n from 1 to this limit is possible (at the limit itself round-off decides), and
 # the start of the film decides which of them it is. Hops may even get longer: with CR = 0.8, g * dt
 # = 0.4 m/s and u = 0.1 m/s, hops of 1, 2, 3, 4 and 4 frames follow each other. In hops of one frame
-# the car meets the floor in each frame, so it lies there. (The film calls steady hops of one or two
-# frames at rest, because their energy is small enough.) Below CR = 1/3 only n = 1 is steady. With
-# rebound k is not the same in all hops of one length. So the hops may also go round in a cycle, as
-# 7 7 8 9 9 8 frames.
+# the car meets the floor in each frame, so it lies there. (In short frames the film calls steady
+# hops of one or two frames at rest, because their energy is small enough.) Below CR = 1/3 only n =
+# 1 is steady. With rebound k is not the same in all hops of one length. So the hops may also go
+# round in a cycle, as 7 7 8 9 9 8 frames.
 #
 # Example 20 is exact + rebound at CR = 0.8, and g * dt is 0.2 m/s. From its start the hops get
 # steady at n = 9. So w is 9 * 0.2/1.8 = 1 m/s, and k is 1. The car hops like this for ever.
