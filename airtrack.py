@@ -80,7 +80,7 @@ def exact(x_m: float, v_mps: float, a_mps2: float, dt_s: float) -> State:
     return x_m + v_mps * dt_s + a_mps2 * dt_s * dt_s / 2, v_mps + a_mps2 * dt_s
 
 # If you write another motion, name it here. Then film and map know it. (The chart compares METHODS,
-# see section 4.) Rewind and replay refuse it, because they need the exact motion.
+# see section 4.) Rewind and replay do not go with it, because they need the exact motion.
 MOTIONS = {"forward": forward, "backward": backward, "exact": exact}
 
 # ==== 2. Colliding ==============================================================================
@@ -142,7 +142,7 @@ def surface(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) ->
 def rebound(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> State:
     """Put the car in front of the wall, CR * depth away.
 
-    Without an acceleration this is right: while the move went on into the wall by the depth, the
+    Without an acceleration this is right: in the time in which the move went on into the wall, the
     true car went back, CR times as fast. If the acceleration points into the wall, and the motion
     is exact, rebound leaves too much energy, as surface does. If CR * depth is longer than the
     track, the car is thrown out at the other end (example 14).
@@ -156,8 +156,8 @@ def conserve(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -
     moment is wrong: the car leaves the wall at the end of the frame, so up to a frame late.
     """
     # Take the car back to the wall. E does not change, so its speed w there follows from
-    # w^2 = v^2 - 2 a depth. This may come out negative: by round-off, if backward has taken too
-    # much energy, or if the car started beyond the wall. The bounce leaves the speed CR w.
+    # w^2 = v^2 - 2 a depth. Round-off may make this negative. So may the motion backward, which
+    # takes energy, and a start beyond the wall. The bounce leaves the speed CR w.
     w_squared = max(0.0, inward_mps * inward_mps - 2 * inward_mps2 * depth_m)
     return 0.0, -CR * math.sqrt(w_squared)  # 1.93 m/s in the drawn collision
 
@@ -187,9 +187,9 @@ def rewind(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> 
     back on the track when the frame ends, no collision is found: a missed event (example 18). In a
     frame in which the car should cross the whole track, rewind may throw it out, too.
     """
-    # How long ago did the car pass the wall, and how fast? Let time run backwards: the car moves
-    # out of the wall. Its velocity is turned round, so outwards it is inward_mps. Its acceleration
-    # is not turned round by that, so outwards it is -inward_mps2.
+    # How long ago did the car pass the wall, and how fast? Let time run backwards: then the car
+    # moves out of the wall, at inward_mps. Its acceleration still points into the wall, so outwards
+    # it is -inward_mps2.
     late_s, met_mps = arrival(depth_m, inward_mps, -inward_mps2)  # 0.030 s, 2.41 m/s
     # Run it forwards again, from the wall, after the bounce, for the same time.
     new_depth_m, new_inward_mps = exact(0.0, -CR * met_mps, inward_mps2, late_s)
@@ -259,7 +259,7 @@ def step(track: Track, x_m: float, v_mps: float, dt_s: float) -> Moved:
     # Move the car as if there were no walls.
     move = MOTIONS[track.motion]
     free_m, free_mps = move(x_m, v_mps, track.a_mps2, dt_s)
-    if track.left_edge_m <= free_m <= track.right_edge_m:
+    if track.left_edge_m <= free_m <= track.right_edge_m:  # has_on_it(), but faster
         return free_m, free_mps, None
     # The move ended beyond a wall. Count from this wall, and into it: at the right wall this is to
     # the right, too, so the signs stay. At the left wall they change.
@@ -417,9 +417,9 @@ class Car:
 #
 # The table is for a car that bounces on its floor. Order 1 means that frames of half the length
 # make half the error, and order 2 that they make a quarter. Method d is right while each frame
-# holds at most one bounce, and its move ends beyond the wall. But at CR < 1 the last frames before
-# the Zeno point hold several bounces. Without an acceleration, and in short frames, a, b, d and e
-# have no error, and c has one of order 1.
+# holds at most one bounce, and the move of a frame with a bounce ends beyond the wall. But at
+# CR < 1 the last frames before the Zeno point hold several bounces. Without an acceleration, and in
+# short frames, a, b, d and e have no error, and c has one of order 1.
 #
 # Methods a to d need short frames, because they look only at the end of a frame, and settle one
 # bounce there. They miss a bounce if the car is back on the track when the frame ends (example 18).
@@ -582,7 +582,7 @@ def paced(scene: Scene, keys: Keys | NoKeys, max_frames: int) -> Iterator[tuple[
         yield dt_s, fps
 
 REST_M = 0.003  # much less than a column
-MOST_REST_M = 0.05  # at 10 FPS and 9.81 m/s^2 the speed of a frame lets a car rise 4.9 cm
+MOST_REST_M = 0.05  # at 10 FPS and 9.81 m/s^2 the speed a * dt lets a car rise 4.9 cm
 REST_S = 0.3  # long enough to be seen
 REST_FRAMES = 10  # at a low frame rate 0.3 s may be a single frame
 
@@ -623,7 +623,8 @@ def cars_of(scene: Scene, unchanged: Scene | None) -> dict[str, Car]:
     cars = {}
     if scene.show_methods:
         for letter, (motion, correction) in METHODS.items():
-            cars[letter] = Car(replace(truth_of(scene), motion=motion, correction=correction))
+            start_m = scene.to_track(scene.x_m)  # d and e need a start on the track
+            cars[letter] = Car(replace(scene, x_m=start_m, motion=motion, correction=correction))
     if scene.show_exact_mark:
         cars["o"] = Car(truth_of(scene))
     if unchanged is not None:
@@ -681,8 +682,8 @@ def tell_cars(cars: dict[str, Car]) -> None:
     for mark in marks:
         words = [hops_text(cars[mark]), end_text(cars[mark])]
         print(mark, "; ".join([text for text in words if text]))
-    print("At rest: for 0.3 s and ten frames its energy is too small to rise 3 mm, but for")
-    print("the speed that its acceleration gives it in one frame.")
+    print("At rest: for 0.3 s and ten frames it had no more energy than it needs to rise")
+    print("3 mm, and the energy of the speed that it gains in one frame.")
 
 def run(cars: dict[str, Car], scene: Scene, view: Scene, has_details: bool, max_frames: int,
         keys: Keys | NoKeys) -> None:
@@ -894,7 +895,8 @@ FROM_WORST_TO_BEST = list(VERDICTS)
 def verdict(track: Track, column_m: float, fps: int, cut: int) -> str:
     """The letter of one run: X, S, H, G, L, P or -. (W needs several runs.)"""
     frames = simulate(track, fps, cut, max(1, fps // 10))  # every 0.1 s or, if longer, every frame
-    late = frames[len(frames) * 3 // 4:]  # the last 5 of 20 s
+    first_late = len(frames) * 3 // 4  # here begin the last 5 of 20 s
+    late = frames[first_late:]
     track_m = track.length_m()
     # X: how far beyond a wall was the car?
     # (Positive numbers are beyond the right wall, negative ones beyond the left wall.)
@@ -902,7 +904,7 @@ def verdict(track: Track, column_m: float, fps: int, cut: int) -> str:
     if max(beyond_m) > track_m or min(beyond_m) < -track_m:
         return "X"
     # S: was it beyond the same wall all through the last 5 s?
-    late_beyond_m = beyond_m[-len(late):]
+    late_beyond_m = beyond_m[first_late:]
     if min(late_beyond_m) > 0 or max(late_beyond_m) < 0:
         return "S"
     # H: did the true car lie still all through the last 5 s, but not this one? (Its energy is
@@ -979,8 +981,8 @@ def stability(scene: Scene, title: str) -> None:
 # In truth a car comes back as fast as it left: w is u. This car comes back faster, because its
 # collision is found only below the floor. The number k of a hop says how much faster:
 #         w = u + k * g * dt                  here 1.3 = 1.1 + k * 0.4, so k is 1/2
-# Then surface or rebound leaves the car the speed CR * w, but lifts it, too. (For the lift it
-# should be slower.) So the next hop begins at CR * w. Call this hop 1, and the next hop 2. This is
+# Then surface or rebound leaves the car the speed CR * w, but lifts it, too. (It should pay for the
+# lift with speed.) So the next hop begins at CR * w. Call this hop 1, and the next hop 2. This is
 # the law:
 #         w2 = CR * w1 + k2 * g * dt
 # In truth k is 0 in every hop.
@@ -1002,10 +1004,13 @@ def stability(scene: Scene, title: str) -> None:
 # In truth w would be 1.1, then 0.88, then 0.704. (If 2 * u/(g * dt) is a whole number, round-off
 # decides whether the hop ends there or a frame later.)
 #
-# With the motion forward each frame ends g * dt^2/2 higher than with exact. So with surface a hop
-# has one frame more, and k is one larger. With backward each frame ends as much lower. So a hop has
-# one frame less, but never less than one. With rebound a hop begins above the floor, so it may last
-# longer. In hops of two frames or more, k is more than the first number and at most the second:
+# With forward each frame adds g * dt^2/2 to the height, and with backward each frame takes as much.
+# So with surface
+#         forward:   n = the next whole number above 2 * u/(g * dt) + 1
+#         backward:  n = the next whole number above 2 * u/(g * dt) - 1, but at least 1
+# and k is one larger or, in hops of two frames or more, one smaller than with exact. With rebound a
+# hop begins above the floor, so it may last longer. In hops of two frames or more, k is more than
+# the first number and at most the second:
 #
 #                  surface     rebound
 #     forward      1 to 2      1 to 3
@@ -1029,14 +1034,15 @@ def stability(scene: Scene, title: str) -> None:
 # Which hop is steady, so that the same hop follows it? Then u is CR * w. Put this into the lines
 # for w and k:
 #         w = n * g * dt/(1 + CR)             and             k = n * (1 - CR)/(1 + CR)
-# With exact + surface k is at most 1. So a steady hop has at most (1 + CR)/(1 - CR) frames: 9 at CR
-# = 0.8. Each whole n from 1 to this limit is possible (at the limit itself round-off decides), and
-# the start of the film decides which of them it is. Hops may even get longer: with CR = 0.8, g * dt
-# = 0.4 m/s and u = 0.1 m/s, hops of 1, 2, 3, 4 and 4 frames follow each other. In hops of one frame
-# the car meets the floor in each frame, so it lies there. (In short frames the film calls steady
-# hops of one or two frames at rest, because their energy is small enough.) Below CR = 1/3 only n =
-# 1 is steady. With rebound k is not the same in all hops of one length. So the hops may also go
-# round in a cycle, as 7 7 8 9 9 8 frames.
+# With exact + surface k is at most 1. So a steady hop has at most (1 + CR)/(1 - CR) frames: 9 at
+# CR = 0.8. Each whole n below this limit is possible, and the start of the film decides which of
+# them it is. (At the limit itself the smallest error makes the hops shorter.) Hops may even get
+# longer: with CR = 0.8, g * dt = 0.4 m/s and u = 0.1 m/s, hops of 1, 2, 3, 4 and 4 frames follow
+# each other. In hops of one frame the car meets the floor in each frame, so it lies there. (In
+# short frames the film calls steady hops of one or two frames at rest, because their energy is
+# small enough.) Below CR = 1/3 only n = 1 is steady. With rebound k may be up to 2, so steady hops
+# may be longer. And k is not the same in all hops of one length, so the hops may also go round in a
+# cycle, as 7 7 8 9 9 8 frames.
 #
 # Example 20 is exact + rebound at CR = 0.8, and g * dt is 0.2 m/s. From its start the hops get
 # steady at n = 9. So w is 9 * 0.2/1.8 = 1 m/s, and k is 1. The car hops like this for ever.
@@ -1279,13 +1285,14 @@ def film_wanted(number: int, changes: dict[str, Any]) -> tuple[Scene, Scene | No
         return scene_of(OWN_SCENE.settings | changes), None, OWN_SCENE
     example = EXAMPLES[number]
     as_it_is = DEFAULTS | example.settings
-    changed = {name for name in changes if changes[name] != as_it_is[name]}
-    has_other_frames = not changed.isdisjoint(OF_THE_FRAMES)
-    if changed.isdisjoint(OF_THE_TRACK) and not has_other_frames:
-        return scene_of(example.settings | changes), None, example  # only the picture changed
+    changed = [name for name in changes if changes[name] != as_it_is[name]]
+    changes_track = any(name in OF_THE_TRACK for name in changed)
+    changes_frames = any(name in OF_THE_FRAMES for name in changed)
+    if not changes_track and not changes_frames:
+        return scene_of(example.settings | changes), None, example
     # Nobody knows what happens in a changed example. So the film shows its true car.
     scene = scene_of(example.settings | {"show_exact_mark": True} | changes)
-    if has_other_frames:
+    if changes_frames:
         return scene, None, CHANGED_FRAMES  # a + would need frames of its own
     return scene, scene_of(example.settings), CHANGED
 
@@ -1299,20 +1306,31 @@ def command_wanted(command: str, number: int, changes: dict[str, Any]) -> Scene:
     scene = scene_of({name: settings[name] for name in FOR_COMMANDS if name in settings})
     return replace(scene, x_m=scene.to_track(scene.x_m))  # a start beyond a wall is not compared
 
-def wanted_by(options: argparse.Namespace, unknown_options: list[str]) -> Wanted:
-    """What the words and options of the command line ask for. Raises ValueError."""
-    numbers, commands, typed = [], [], {}
-    has_details = options.details
-    for word in [*options.words, *unknown_options]:
-        if word in ("d", "D"):
-            has_details = True
-        elif word in COMMANDS:
+class Words(NamedTuple):
+    """The words of the command line, sorted."""
+
+    commands: list[str]
+    numbers: list[int]
+    typed: dict[str, str]  # NAME=VALUE
+    has_details: bool  # whether d is one of them
+
+def sorted_words(words: list[str]) -> Words:
+    """Sort the words of the command line. Raises ValueError for an unknown one."""
+    commands, numbers, typed = [], [], {}
+    for word in words:
+        if word in COMMANDS:
             commands.append(word)
         elif word.removeprefix("-").isdecimal():  # -5 is a number, too
             numbers.append(int(word))
-        else:
+        elif word not in ("d", "D"):
             name, text = name_and_text(word)
             typed[name] = text
+    return Words(commands, numbers, typed, "d" in words or "D" in words)
+
+def wanted_by(options: argparse.Namespace, unknown_options: list[str]) -> Wanted:
+    """What the words and options of the command line ask for. Raises ValueError."""
+    words = sorted_words([*options.words, *unknown_options])
+    commands, numbers, typed = words.commands, words.numbers, words.typed
     if len(commands) > 1 or len(numbers) > 1:
         found = [str(each) for each in [*commands, *numbers]]
         raise ValueError(f"one command and one EXAMPLE at a time, not {', '.join(found)}")
@@ -1325,6 +1343,7 @@ def wanted_by(options: argparse.Namespace, unknown_options: list[str]) -> Wanted
         number = numbers[0]
     changes = {name: value_of(name, text) for name, text in typed.items()}
     unchanged, texts = None, OWN_SCENE
+    has_details = options.details or words.has_details
     if command is None:
         scene, unchanged, texts = film_wanted(number, changes)
     else:
