@@ -110,22 +110,21 @@ EXAMPLES = {
         "column, so only d shows them. In example 8 the same happens with larger steps, and there "
         "one sees it."),
     8: Example("Elastic, large steps", COARSE,
-        "Example 7 at only 10 FPS. How near to the start mark does the car come back? Watch it "
-        "come back four times.",
-        "Only to 1.88 m, 12 cm short of the mark. The next time it reaches the mark, then again "
-        "only 1.88 m, and so on. Think of the left wall as a floor. In each frame backward Euler "
-        "takes away 1 cm of height, so 26 cm in a fall and the rise after it. The rebound gives "
-        "height back: it puts the car as far above the floor as it was below, and does not slow "
-        "it. First it was 7 cm below: 2 * 7 = 14 cm, 12 too few. Then it was 19 cm below: 2 * 19 "
-        "= 38 cm, 12 too many."),
+        "No speed is lost in a bounce, and each step lasts 0.1 s. How near to its start, the dots "
+        "at 2 m, does the car come back? Watch it come back four times.",
+        "First only to 1.88 m, 12 cm short of the dots. The next time it reaches the dots, then "
+        "again only 1.88 m, and so on. In each frame backward Euler takes as much energy as 1 cm "
+        "of the track is worth, so 26 cm on the way to the left wall and back. The rebound gives "
+        "energy back: it puts the car as far in front of the wall as it was beyond, and does not "
+        "slow it. First the car was 7 cm beyond the wall: 2 * 7 = 14 cm, 12 too few. Then it was "
+        "19 cm beyond: 2 * 19 = 38 cm, 12 too many."),
     9: Example("Elastic, large and irregular steps", COARSE | IRREGULAR,
         "Example 8 with irregular frames: each is up to a quarter longer or shorter. How near to "
-        "the start mark does the car come back? Watch for half a minute.",
+        "its start does the car come back? Watch for half a minute.",
         "It comes back elsewhere each time: it wanders. First it turns at about 1.81 m, and after "
-        "about half a minute even beyond the start mark. On a busy computer these figures may be "
-        "a little different. Think of the left wall as a floor again. The rebound gives back more "
-        "height if the car is found deeper in this wall. In irregular frames the depth is "
-        "irregular, too."),
+        "about half a minute even beyond the dots. On a busy computer these figures may be a "
+        "little different. The rebound gives back more energy if the car is found deeper in the "
+        "left wall. In irregular frames the depth is irregular, too."),
     10: Example("The exact solution", EXACT,
         "Only 10 FPS, but exact formulas. How near to the start mark does the car come back? "
         "Begin with s, and press it until you see the 0 of the first bounce, in line 14. Then p "
