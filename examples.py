@@ -103,16 +103,16 @@ EXAMPLES = {
         "No, only the drawing changes: it is about half as wide (30/55). The film stops after 235 "
         "frames, as example 5 does. With d, each line has the figures of example 5."),
     7: Example("Elastic, small steps", ELASTIC | {"fps_target": 240.0},
-        "No speed is lost in a bounce. So the car should come back to the start mark, the dot at "
+        "No speed is lost in a bounce. So the car should come back to the start mark, the dots at "
         "2 m, every time. Does it? Watch for six seconds.",
         "Nearly. It turns 1.1 cm short of the mark, first in frame 633 (t = 2.64 s). The next "
         "time it turns at the mark, then short of it again, and so on. The 1.1 cm are less than a "
         "column, so only d shows them. In example 8 the same happens with larger steps, and there "
         "one sees it."),
     8: Example("Elastic, large steps", COARSE,
-        "No speed is lost in a bounce, and each step lasts 0.1 s. How near to its start, the dots "
-        "at 2 m, does the car come back? Watch it come back four times.",
-        "First only to 1.88 m, 12 cm short of the dots. The next time it reaches the dots, then "
+        "No speed is lost in a bounce, and each step lasts 0.1 s. How near to the start mark, the "
+        "dots at 2 m, does the car come back? Watch it come back four times.",
+        "First only to 1.88 m, 12 cm short of the mark. The next time it reaches the mark, then "
         "again only 1.88 m, and so on. In each frame backward Euler takes as much energy as 1 cm "
         "of the track is worth, so 26 cm on the way to the left wall and back. The rebound gives "
         "energy back: it puts the car as far in front of the wall as it was beyond, and does not "
@@ -120,16 +120,16 @@ EXAMPLES = {
         "19 cm beyond: 2 * 19 = 38 cm, 12 too many."),
     9: Example("Elastic, large and irregular steps", COARSE | IRREGULAR,
         "Example 8 with irregular frames: each is up to a quarter longer or shorter. How near to "
-        "its start does the car come back? Watch for half a minute.",
+        "the start mark does the car come back? Watch for half a minute.",
         "It comes back elsewhere each time: it wanders. First it turns at about 1.81 m, and after "
-        "about half a minute even beyond the dots. On a busy computer these figures may be a "
+        "about half a minute even beyond the mark. On a busy computer these figures may be a "
         "little different. The rebound gives back more energy if the car is found deeper in the "
         "left wall. In irregular frames the depth is irregular, too."),
     10: Example("The exact solution", EXACT,
         "Only 10 FPS, but exact formulas. How near to the start mark does the car come back? "
         "Begin with s, and press it until you see the 0 of the first bounce, in line 14. Then p "
         "lets the film go on.",
-        "It comes back to the start mark, the dot at 2 m, every time. The car moves by the "
+        "It comes back to the start mark, the dots at 2 m, every time. The car moves by the "
         "formulas of kinematics. The correction, rewind, works out at what moment of the frame "
         "the car met the wall, and lets it bounce at that moment. The 0 in frame 14 shows where "
         "the move alone had put the car. In example 8, at the same 10 FPS, the car comes back to "

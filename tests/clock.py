@@ -1,6 +1,5 @@
 """A clock that a test sets, and keys that it presses at set moments."""
 
-import re
 import signal
 from collections.abc import Callable
 from contextlib import nullcontext
@@ -19,8 +18,8 @@ class Clock:
     """A clock that goes on only while somebody sleeps, or when a test says so."""
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
-        self.now_s = self.began_s = 1000.0
-        self.frames_s: list[float] = []  # when each frame was drawn, from the start of the run
+        self.now_s = 0.0  # from the start of the run
+        self.frames_s: list[float] = []  # when each frame was drawn
         self.when_drawn: Callable[[int], float] = lambda frame: 0.0  # how long drawing it takes
         self.due: dict[float, str] = {}  # the keys still to be pressed, and when
         stand_in = SimpleNamespace(perf_counter=lambda: self.now_s, sleep=self.sleep)
@@ -32,15 +31,11 @@ class Clock:
         render_track = airtrack.render_track
 
         def render(*args: object) -> str:
-            self.frames_s.append(self.now_s - self.began_s)
+            self.frames_s.append(self.now_s)
             self.now_s += self.when_drawn(len(self.frames_s))
             return render_track(*args)  # type: ignore[arg-type]
 
         monkeypatch.setattr(airtrack, "render_track", render)
-
-    def start(self, keys: dict[float, str]) -> None:
-        """Begin a run. The keys are pressed so many s later."""
-        self.began_s, self.frames_s, self.due = self.now_s, [], dict(keys)
 
     def sleep(self, seconds: float) -> None:
         assert seconds >= 0
@@ -48,27 +43,16 @@ class Clock:
 
     def pressed(self) -> list[str]:
         """The keys that were pressed since the last call. Ctrl-C comes as a signal."""
-        keys = []
-        for at_s in [at_s for at_s in self.due if at_s <= self.now_s - self.began_s]:
-            for key in self.due.pop(at_s):
-                if key == "\x03":
-                    signal.raise_signal(signal.SIGINT)
-                else:
-                    keys.append(key)
-        return keys
+        keys = ""
+        for at_s in [at_s for at_s in self.due if at_s <= self.now_s]:
+            keys += self.due.pop(at_s)
+        if "\x03" in keys:
+            signal.raise_signal(signal.SIGINT)
+        return list(keys.replace("\x03", ""))
 
     def lengths_s(self) -> list[float]:
         """How long each frame lasted."""
         return [after_s - before_s for before_s, after_s in pairwise(self.frames_s)]
-
-    def frames_between(self, from_s: float, to_s: float) -> int:
-        return sum(from_s <= at_s < to_s for at_s in self.frames_s)
-
-
-def steps_s(out: str) -> list[float]:
-    """How much time has passed for a free car at 10 m/s from each frame to the next."""
-    places_m = [float(x) for x in re.findall(r"x = +(-?[0-9.]+), v", out)]
-    return [(after_m - before_m) / 10 for before_m, after_m in pairwise(places_m)]
 
 
 def plain(text: str) -> str:

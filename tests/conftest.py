@@ -38,7 +38,7 @@ def clock(monkeypatch: pytest.MonkeyPatch) -> Clock:
 def play(clock: Clock, capsys: pytest.CaptureFixture[str]) -> Play:
     """Run a command line, and press keys at set moments, in s. Returns what was printed."""
     def played(words: str, keys: dict[float, str] | None = None) -> str:
-        clock.start(keys or {})
+        clock.now_s, clock.frames_s, clock.due = 0.0, [], dict(keys or {})
         assert main(words.split()) == 0
         return capsys.readouterr().out
     return played

@@ -10,13 +10,13 @@ import subprocess
 import sys
 import time
 from dataclasses import replace
-from itertools import pairwise, product
+from itertools import pairwise
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import pytest
 
-from airtrack import Car, Scene, main, planned_length, step, truth_of
+from airtrack import Car, Scene, main, planned_length, step
 from examples import EXAMPLES, OWN_SCENE
 
 if sys.platform != "win32":
@@ -27,26 +27,6 @@ if sys.platform != "win32":
 HERE = Path(__file__).resolve().parent.parent
 COMMAND = [sys.executable, str(HERE / "airtrack.py")]
 LISTING = (HERE / "airtrack.py").read_text(encoding="utf-8")
-
-
-def running_text(part: str) -> str:
-    """A part of the listing with its comments on one line."""
-    return " ".join(part.replace("#", "").split())
-
-
-WORDS = running_text(LISTING)
-
-
-def value(formula: str, **names: float) -> float:
-    """A formula of the listing, worked out: a b is a product there, ^ a power, k' the next k."""
-    code = re.sub(r"(?<=[\w)]) (?=[\w(])", "*", formula)
-    return float(eval(code.replace("^", "**").replace("k'", "next_k"), dict(names)))
-
-
-def sides(equation: str, **names: float) -> tuple[float, float]:
-    """Both sides of an equation of the listing, worked out."""
-    left, right = equation.split(" = ")
-    return value(left, **names), value(right, **names)
 
 
 # Nothing else of the environment in which the tests are started reaches a run: no display, no
@@ -145,25 +125,6 @@ def hops(scene: Scene, number: int) -> list[int]:
         frames *= 2
         found = collisions(states_of(replace(scene, use_observed_dt=False), frames))
     return [after - before for before, after in pairwise(found[:number + 1])]
-
-
-def hops_nearby(number: int, lines: int, **changes: object) -> list[list[int]]:
-    """The hops of an example with changes, its x and v nine times shifted by up to 0.1 %."""
-    scene = changed(number, changes)
-    return [hops(replace(scene, x_m=scene.x_m * of_x, v_mps=scene.v_mps * of_v), lines)
-            for of_x, of_v in product((1 - 1e-3, 1, 1 + 1e-3), repeat=2)]
-
-
-def beside_the_truth(number: int, frames: int, **changes: object) -> list[State]:
-    """x, the true x (one step of any length from the start) and mark_m, frame by frame."""
-    scene = changed(number, changes)
-    truth = truth_of(scene)
-    return [(x_m, step(truth, truth.x_m, truth.v_mps, frame / scene.fps_target)[0], mark_m)
-            for frame, (x_m, _, mark_m) in enumerate(states_of(scene, frames), 1)]
-
-
-def apart_m(found: list[State]) -> float:
-    return max(abs(x_m - true_m) for x_m, true_m, _ in found)
 
 
 PATIENCE_S = 30  # for what must come: only a test that fails waits so long

@@ -1,9 +1,7 @@
 """The cars of a film: which are drawn, and what the table tells of them."""
 
-import io
 import math
 import re
-from contextlib import redirect_stdout
 from typing import Any
 
 import pytest
@@ -14,9 +12,7 @@ import airtrack
 from airtrack import ALL_CORRECTIONS, EXACT_ONLY, MOTIONS, Car, Scene, main, rest_began_s, truth_of
 from clock import Play, plain
 from examples import EXAMPLES
-from films import film, filmed
-
-Capture = pytest.CaptureFixture[str]
+from films import filmed, shown
 
 
 def told(table: list[str]) -> dict[str, list[str]]:
@@ -35,17 +31,15 @@ def rest_text(table: list[str], mark: str) -> str | None:
     return found[1] if found else None
 
 
-FALL = {
-    # 10 cm above the floor at 2 m/s^2. With forward: 10, 8, 4, -2 cm. Surface puts it on the floor.
-    "*": ["forward + surface 0.03 m 0.2 0.08 0.26 0.08", "still moves"],  # truly 1 cm after 0.3 s
-    "o": ["the truth 0.2 0.05 0.2 0.05", "still moves"]}  # a bounce leaves 0.5^2 of the energy
-
-
 @pytest.mark.parametrize(("words", "lines"), [
-    ("99 a_mps2=-2 x_m=0.35 motion=forward correction=surface CR=0.5 fps_target=10 --frames=4",
-     FALL),
-    ("99 a_mps2=2 x_m=2.1 motion=forward correction=surface CR=0.5 fps_target=10 --frames=4",
-     FALL),
+    # It falls 10 cm at 2 m/s^2. With forward it is 10, 8, 4, -2 cm above its floor, then on it.
+    ("99 a_mps2=2 x_m=2.1 motion=forward correction=surface CR=0.5 fps_target=10 --frames=4", {
+        "*": ["forward + surface 0.03 m 0.2 0.08 0.26 0.08", "still moves"],
+        "o": ["the truth 0.2 0.05 0.2 0.05", "still moves"]}),  # a bounce leaves 0.5^2
+    # In flight forward falls back by a dt^2/2 in each frame.
+    ("99 x_m=0.3 right_edge_m=100.3 motion=forward a_mps2=0.1 fps_target=10 --frames=3", {
+        "*": ["forward + rebound 0.0015 m 10 10 10 10", "still moves"],
+        "o": ["the truth 10 10 10 10", "still moves"]}),
     # 4 m a frame: 5.65 becomes -1.25, and -5.25 becomes 5.75. The true car is at 1.75, then 1.85.
     ("14 --frames=2", {"*": ["backward + rebound 3.9 m 800 800 800 800", "1; still moves"]}),
     # 9 cm a frame: it is 8 cm beyond the wall when the true car is as far in front of it.
@@ -63,20 +57,8 @@ FALL = {
         "*": ["backward + none under 1 mm <0.001 <0.001 <0.001 <0.001", "still moves"],
         "+": ["backward + none 0.16 m 3.645 3.645 3.645 3.645", "still moves"]})])
 def test_the_table_of_a_small_film_worked_out_by_hand(
-        words: str, lines: dict[str, list[str]], capsys: Capture) -> None:
-    assert told(film(capsys, *words.split()).table) == lines
-
-
-@pytest.mark.parametrize("frames", [1, 3, 19, 21])
-def test_it_is_told_how_far_a_car_is_off_if_that_is_a_millimetre_or_more(
-        frames: int, capsys: Capture) -> None:
-    # In free flight forward Euler falls back by a dt^2/2 in each frame, here by 0.5 mm.
-    words = f"99 motion=forward a_mps2=0.1 fps_target=10 --frames={frames}"
-    row, _ = told(film(capsys, *words.split()).table)["*"]
-    if frames == 1:
-        assert "under 1 mm" in row
-    else:
-        assert float(row.split()[3]) == pytest.approx(frames * 0.0005)
+        words: str, lines: dict[str, list[str]]) -> None:
+    assert told(shown(words).table) == lines
 
 
 NUMBERS = st.sampled_from([-1000.0, -1.0, -1e-5, 0.0, 1e-5, 1.0, 1000.0]) | st.floats(-1000, 1000)
@@ -89,14 +71,11 @@ NUMBERS = st.sampled_from([-1000.0, -1.0, -1e-5, 0.0, 1e-5, 1.0, 1000.0]) | st.f
 def test_the_table_of_any_scene_fits_in_80_columns_and_has_no_nan(**settings: Any) -> None:
     is_for_all = settings["motion"] == "exact" and settings["x_m"] <= settings["right_edge_m"]
     assume(is_for_all or settings["correction"] not in EXACT_ONLY)
-    words = [f"{name}={value}" for name, value in settings.items()]
-    with redirect_stdout(io.StringIO()) as out:
-        assert main(["99", *words, "left_edge_m=-1000", "show_methods=True", "--fast",
-                     "--frames=60"]) == 0
-    *_, table = out.getvalue().split("\n\n")
-    assert "nan" not in table
-    assert max(len(line) for line in table.splitlines()) <= 80
-    assert set(told(table.splitlines())) == set("*oabcde")
+    settings_text = " ".join([f"{name}={value}" for name, value in settings.items()])
+    table = shown(f"99 {settings_text} left_edge_m=-1000 show_methods=True --frames=60").table
+    assert "nan" not in "".join(table)
+    assert max(len(line) for line in table) <= 80
+    assert set(told(table)) == set("*oabcde")
 
 
 # At rest.
@@ -106,8 +85,8 @@ def test_the_table_of_any_scene_fits_in_80_columns_and_has_no_nan(**settings: An
     ("99 fps_target=50", 16), ("99 fps_target=240", 73),  # 0.3 s from the end of frame 1 on
     ("99 v_mps=2.9 CR=0", 21)])  # 9.7 cm a frame: it stops at the wall in frame 12
 def test_a_film_ends_when_the_car_has_been_at_rest_for_0_3_s_and_ten_frames(
-        words: str, frames: int, capsys: Capture) -> None:
-    assert len(film(capsys, *words.split()).lines) == frames
+        words: str, frames: int) -> None:
+    assert len(shown(words).lines) == frames
 
 
 @pytest.mark.parametrize("words", [
@@ -115,19 +94,18 @@ def test_a_film_ends_when_the_car_has_been_at_rest_for_0_3_s_and_ten_frames(
     "99 v_mps=1e-6",  # a slow drift
     "99 x_m=0.27 a_mps2=-2 CR=1 motion=exact correction=replay fps_target=60",  # a hop of 2 cm
     "99 x_m=0.35 a_mps2=-2 CR=1 motion=exact correction=replay fps_target=1"])  # one of 10 cm
-def test_a_car_that_moves_is_not_at_rest(words: str, capsys: Capture) -> None:
-    shown = film(capsys, *words.split(), "--frames=300")
-    assert len(shown.lines) == 300
-    assert rest_text(shown.table, "*") is None
-    assert rest_text(shown.table, "o") is None
+def test_a_car_that_moves_is_not_at_rest(words: str) -> None:
+    film = shown(f"{words} show_exact_mark=True --frames=300")
+    assert len(film.lines) == 300
+    assert rest_text(film.table, "*") is None
+    assert rest_text(film.table, "o") is None
 
 
 @pytest.mark.parametrize(("words", "height_m", "v_mps", "g", "CR", "fps"), [
     ("20 --frames=150", 0.41, 0.75, 2, 0.8, 10), ("22 --frames=300", 1.0, 0, 10, 0.8, 60),
     ("1 show_exact_mark=True auto_off=False --frames=300", 1.75, 0, 1.5, 0.7, 30)])
 def test_the_truth_rests_after_the_bounce_that_leaves_too_little_energy_to_rise_3_mm(
-        words: str, height_m: float, v_mps: float, g: float, CR: float, fps: int,
-        capsys: Capture) -> None:
+        words: str, height_m: float, v_mps: float, g: float, CR: float, fps: int) -> None:
     speed_mps = math.sqrt(v_mps**2 + 2 * g * height_m)  # at the floor
     bounce_s = (v_mps + speed_mps) / g
     speed_mps *= CR
@@ -135,7 +113,7 @@ def test_the_truth_rests_after_the_bounce_that_leaves_too_little_energy_to_rise_
         bounce_s += 2 * speed_mps / g
         speed_mps *= CR
     rest_s = math.ceil(bounce_s * fps) / fps  # the end of the frame
-    assert rest_text(film(capsys, *words.split()).table, "o") == f"{rest_s:.2f}"
+    assert rest_text(shown(words).table, "o") == f"{rest_s:.2f}"
 
 
 def test_every_length_of_a_film_tells_the_same_moment_of_rest() -> None:
@@ -180,18 +158,18 @@ def test_a_car_under_1_mm_from_its_truth_all_the_way_rests_if_the_truth_does(
     ("10 fps_target=11 show_exact_mark=False", "*", True),
     ("99", "*o", True), ("-5 show_exact_mark=False", "*", True)])
 def test_a_changed_example_shows_the_o_and_if_the_frames_are_its_own_the_plus(
-        words: str, marks: str, is_changed: bool, capsys: Capture) -> None:
-    shown = film(capsys, *words.split(), "--frames=3")
-    assert set(told(shown.table)) == set(marks)
-    assert ("The +" in shown.intro) is ("+" in marks)
+        words: str, marks: str, is_changed: bool) -> None:
+    film = shown(f"{words} --frames=3")
+    assert set(told(film.table)) == set(marks)
+    assert ("The +" in film.intro) is ("+" in marks)
     own_question = EXAMPLES.get(int(words.split()[0]), EXAMPLES[0]).look_for
-    assert (plain(own_question) in shown.intro) is not is_changed
+    assert (plain(own_question) in film.intro) is not is_changed
 
 
 @pytest.mark.parametrize("change", ["CR=0.5", "a_mps2=-3", "motion=exact", "x_m=1"])
-def test_the_plus_is_where_the_example_as_it_is_has_its_car(change: str, capsys: Capture) -> None:
-    as_it_is = film(capsys, "9", "--frames=120").lines  # in irregular frames
-    changed = film(capsys, "9", change, "auto_off=False", "--frames=120").lines
+def test_the_plus_is_where_the_example_as_it_is_has_its_car(change: str) -> None:
+    as_it_is = shown("9 --frames=120").lines  # in irregular frames
+    changed = shown(f"9 {change} auto_off=False --frames=120").lines
     seen = {after[before.index("*")] for before, after in zip(as_it_is, changed, strict=True)}
     assert "+" in seen
     assert seen <= {"+", "*"}  # the * may hide it

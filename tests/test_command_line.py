@@ -2,7 +2,6 @@
 
 import importlib.util
 import io
-import math
 import re
 import signal
 import subprocess
@@ -21,9 +20,8 @@ import airtrack
 from airtrack import ALL_CORRECTIONS, COMMANDS, MOTIONS, Scene, main
 from clock import Play
 from examples import EXAMPLES
-from films import COMMAND, HERE, environment, film
+from films import COMMAND, HERE, environment, shown
 
-Capture = pytest.CaptureFixture[str]
 NAMES = [field.name for field in fields(Scene)]
 
 
@@ -62,7 +60,8 @@ def ended(words: list[str]) -> tuple[object, str]:
     ("SPEED=3", "v_mps=VALUE"), ("x=1", "x_m=VALUE"), ("cr=1", "CR=VALUE"), ("h=2", "x_m=VALUE"),
     ("v=2", "v_mps=VALUE"), ("zoom=9", "m_to_px=VALUE"), ("widht_px=9", "width_px=VALUE"),
     ("Stabilty", "Stabilty stability"), ("conserv", "correction=conserve"),
-    ("Exact", "motion=exact"), ("--fats", "--fast"), ("frames=9", "--frames"), ("qqqq", "qqqq -h")])
+    ("Exact", "motion=exact"), ("--fats", "--fast"), ("frames=9", "--frames"), ("qqqq", "qqqq -h"),
+    ("grafik=1", "grafik -h"), ("friction=0.1", "friction -h")])
 def test_wrong_input_ends_with_2_and_one_sentence_that_helps(words: str, parts: str) -> None:
     status, err = ended(words.split())
     assert status == 2
@@ -70,26 +69,6 @@ def test_wrong_input_ends_with_2_and_one_sentence_that_helps(words: str, parts: 
     assert error.startswith("airtrack.py: error: ")
     for part in parts.split():
         assert part in error.removeprefix("airtrack.py: error: ")
-
-
-@pytest.mark.parametrize("word", ["grafik=1", "friction=0.1", "mass=3"])
-def test_what_is_like_no_name_gets_no_wrong_one(word: str) -> None:
-    _, err = ended(["10", word])
-    for name in [*NAMES, *COMMANDS, *MOTIONS, *ALL_CORRECTIONS]:
-        assert name not in err
-
-
-@pytest.mark.parametrize(("name", "least", "largest"), [
-    ("x_m", -1000, 1000), ("left_edge_m", -1000, 2.19), ("right_edge_m", 0.26, 1000), ("CR", 0, 1),
-    ("fps_target", 0.1, 1000), ("jitter", 0, 0.9), ("m_to_px", 0.001, 1000),
-    ("width_px", 10, 1000)])
-def test_a_scene_may_have_a_value_up_to_the_bounds_and_none_beyond(
-        name: str, least: float, largest: float) -> None:
-    for value in (least, largest):
-        assert getattr(Scene(**{name: value}), name) == value  # type: ignore[arg-type]
-    for value in (least - 0.001, largest + 0.001, math.nan):
-        with pytest.raises(ValueError, match=f"_edge_m must be|{name} must be .*{value}"):
-            Scene(**{name: value})  # type: ignore[arg-type]
 
 
 WORD = st.sampled_from(["d", "-d", "--fast", "--frames", "chart", "stability", "10", "-5", "CR="])
@@ -109,12 +88,9 @@ def test_no_words_end_in_a_traceback(words: list[str]) -> None:
 
 # What is taken.
 
-def test_h_names_every_setting_example_motion_and_correction_in_80_columns(
-        capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("COLUMNS", "80")
-    with pytest.raises(SystemExit, match="0"):
-        main(["3", "-h"])
-    text = capsys.readouterr().out
+def test_h_names_every_setting_example_motion_and_correction_in_80_columns() -> None:
+    text = subprocess.run([*COMMAND, "-h"], env=environment(COLUMNS="80"), stdout=subprocess.PIPE,
+                          text=True, check=True).stdout
     assert max(len(line) for line in text.splitlines()) <= 80
     for number, example in EXAMPLES.items():
         assert re.search(rf"(?m)^ +{number} +{re.escape(example.title)}$", text)
@@ -125,10 +101,10 @@ def test_h_names_every_setting_example_motion_and_correction_in_80_columns(
 
 
 @pytest.mark.parametrize(("words", "title"), [
-    ([], "Example 1:"), (["10"], "Example 10:"), (["23"], "Your own"), (["-5"], "Your own")])
+    ("", "Example 1:"), ("10", "Example 10:"), ("23", "Your own"), ("-5", "Your own")])
 def test_without_a_number_it_is_example_1_and_any_whole_number_is_a_scene(
-        words: list[str], title: str, capsys: Capture) -> None:
-    assert film(capsys, *words, "--frames=1").intro.startswith(title)
+        words: str, title: str) -> None:
+    assert shown(f"{words} --frames=1").intro.startswith(title)
 
 
 @pytest.mark.parametrize("command", ["chart", "stability"])
@@ -142,12 +118,12 @@ def test_a_command_in_any_place_is_for_example_12_or_another_from_a_start_on_the
     assert starts == [(2.0, -2.0, 0.8), *[(2.0, -1.5, 0.5)] * 6, (2.2, -2.0, 0.8)]
 
 
-def test_words_come_in_any_order_on_top_of_the_example(capsys: Capture) -> None:
-    wanted = film(capsys, "13", "d", "x_m=1", "a_mps2=0", "--frames=6")
-    assert len(wanted.lines) == 6
-    assert "x =   1.25, v =  2.48" in wanted.lines[0]  # 1 m + 2.48 m/s * 0.1 s
+def test_words_come_in_any_order_on_top_of_the_example() -> None:
+    wanted = shown("13 d x_m=1 a_mps2=0 --frames=6").lines
+    assert len(wanted) == 6
+    assert "x =   1.25, v =  2.48" in wanted[0]  # 1 m + 2.48 m/s * 0.1 s
     for words in permutations(["13", "-d", "x_m=1", "--frames=6"]):
-        assert film(capsys, "a_mps2=0", *words).lines == wanted.lines
+        assert shown(f"a_mps2=0 {' '.join(words)}").lines == wanted
 
 
 # How it ends.

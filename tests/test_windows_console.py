@@ -4,29 +4,11 @@ import importlib.util
 import signal
 import sys
 from collections import deque
-from types import ModuleType, SimpleNamespace
+from types import SimpleNamespace
 
 import pytest
 
 from films import HERE
-
-
-def windows(monkeypatch: pytest.MonkeyPatch, is_console: bool) -> ModuleType:
-    """examples.py without what only POSIX has; its msvcrt.typed are the keys still to be given."""
-    typed = deque[str]()
-    monkeypatch.setitem(sys.modules, "msvcrt", SimpleNamespace(
-        typed=typed, kbhit=lambda: bool(typed), getwch=typed.popleft))
-    for name in ("select", "termios", "tty"):
-        monkeypatch.setitem(sys.modules, name, None)
-    for name in ("SIGHUP", "SIGQUIT", "SIGTSTP", "SIGCONT"):
-        monkeypatch.delattr(signal, name, raising=False)
-    monkeypatch.setattr("os.isatty", lambda number: number == 0 or is_console)
-    monkeypatch.setattr(sys, "platform", "win32")
-    spec = importlib.util.spec_from_file_location("examples_on_windows", HERE / "examples.py")
-    module = importlib.util.module_from_spec(spec)  # type: ignore[arg-type]
-    spec.loader.exec_module(module)  # type: ignore[union-attr]
-    monkeypatch.setattr(module.Window, "__init__", lambda window: setattr(window, "why_shut", "no"))
-    return module
 
 
 @pytest.mark.parametrize(("is_console", "typed", "keys"), [
@@ -34,11 +16,22 @@ def windows(monkeypatch: pytest.MonkeyPatch, is_console: bool) -> ModuleType:
     (False, "x", "")], ids=["in a console", "in a pipe"])
 def test_the_console_gives_its_keys_and_no_arrows_and_a_pipe_has_none(
         is_console: bool, typed: str, keys: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    module = windows(monkeypatch, is_console)
-    module.msvcrt.typed.extend(typed)
-    before = {name: signal.getsignal(name) for name in (signal.SIGINT, signal.SIGTERM)}
-    with module.taken_keys() as taken:
-        assert taken.texts_before("?")[0].startswith("Keys here" if is_console else "No keys here")
+    waiting = deque(typed)
+    monkeypatch.setitem(sys.modules, "msvcrt", SimpleNamespace(
+        kbhit=lambda: bool(waiting), getwch=waiting.popleft))
+    for name in ("select", "termios", "tty"):  # what only POSIX has
+        monkeypatch.setitem(sys.modules, name, None)
+    for name in ("SIGHUP", "SIGQUIT", "SIGTSTP", "SIGCONT"):
+        monkeypatch.delattr(signal, name, raising=False)
+    monkeypatch.setattr("os.isatty", lambda number: number == 0 or is_console)
+    monkeypatch.setattr(sys, "platform", "win32")
+    spec = importlib.util.spec_from_file_location("examples_on_windows", HERE / "examples.py")
+    assert spec
+    assert spec.loader
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    found = signal.getsignal(signal.SIGTERM)
+    with module.taken_keys():
         assert module.terminal_keys() == list(keys)
-    for name, handler in before.items():
-        signal.signal(name, handler)
+        assert signal.getsignal(signal.SIGTERM) != found
+    assert signal.getsignal(signal.SIGTERM) == found
