@@ -16,8 +16,8 @@ For example: python airtrack.py 10 d CR=0.9
 
 In a film, * is the car and | is a wall. < or > is the car, too, when it is out
 of the picture. If the car bounces, 0 is where the frame would have ended
-without walls. A . is the start. o is the true car. If you change an example,
-but not its frames, + is the car of the example as it is. a to e are the cars of
+without walls. A . is the start. o is the true car. If you change the car or
+the track of an example, + is the car of the example as it is. a to e are the cars of
 five methods.
 
 README.md says what this is good for. .github/lesson.md is a lesson for a class.
@@ -41,6 +41,7 @@ import time
 from collections.abc import Iterator
 from contextlib import nullcontext
 from dataclasses import dataclass, fields, replace
+from functools import partial
 from itertools import pairwise, takewhile
 from statistics import fmean, linear_regression
 from typing import Any, NamedTuple
@@ -530,9 +531,8 @@ def track_text(track: Track) -> str:
             f"{track.right_edge_m:.10g} m")
 
 # ==== 6. The run ================================================================================
-# How do the frames become a film that runs at the right speed? What happened to the cars?
-# The main loop is run(). What is told after the film is worked out after the film, from the frames
-# that each car has kept.
+# How do the frames become a film that runs at the right speed, and when does it end? The main loop
+# is run(), at the end of this section.
 
 def planned_length(scene: Scene, frame: int) -> float:
     """How long this frame should last, in s. With jitter, frames are irregular in a fixed way."""
@@ -581,7 +581,7 @@ def paced(scene: Scene, keys: Keys | NoKeys, max_frames: int) -> Iterator[tuple[
         t_s += dt_s
         yield dt_s, fps
 
-REST_M = 0.003  # much less than a column
+REST_M = 0.003  # too low to be seen in most films
 MOST_REST_M = 0.05  # at 10 FPS and 9.81 m/s^2 the speed a * dt lets a car rise 4.9 cm
 REST_S = 0.3  # long enough to be seen
 REST_FRAMES = 10  # at a low frame rate 0.3 s may be a single frame
@@ -611,10 +611,6 @@ def rest_began_s(car: Car) -> float | None:
         return None
     return began_s
 
-def is_beyond_a_wall(car: Car) -> bool:
-    """Whether the car was beyond a wall in all of its last ten frames, not only after a bounce."""
-    return not any(car.track.has_on_it(frame.x_m) for frame in car.frames[-10:])
-
 def cars_of(scene: Scene, unchanged: Scene | None) -> dict[str, Car]:
     """All cars that a film draws, by their marks, from back to front.
 
@@ -631,59 +627,6 @@ def cars_of(scene: Scene, unchanged: Scene | None) -> dict[str, Car]:
         cars["+"] = Car(unchanged)
     cars["*"] = Car(scene)
     return cars
-
-def energy_text(energy: float) -> str:
-    """An energy with up to four significant digits."""
-    if energy != 0 and abs(energy) < 0.001:
-        return "<0.001"
-    return f"{energy:.4g}"
-
-def hops_text(car: Car) -> str:
-    """How many frames there are from bounce to bounce. Of many, the first four and the last two."""
-    bounces = [number for number, frame in enumerate(car.frames) if frame.mark_m is not None]
-    hops = [str(after - before) for before, after in pairwise(bounces)]
-    if len(hops) > 6:
-        hops = [*hops[:4], "...", *hops[-2:]]
-    return " ".join(hops)
-
-def end_text(car: Car) -> str:
-    """What the car does at the end of the film."""
-    began_s = rest_began_s(car)
-    if began_s is not None:
-        return f"at rest from {began_s:.2f} s on"
-    if is_beyond_a_wall(car):
-        return "is beyond a wall"
-    return "still moves"
-
-def table_row(mark: str, car: Car) -> str:
-    """A car's row of the table: its method, how far off it was, and its energies."""
-    if mark == "o":
-        row = f"{'o the truth':35}"
-    else:
-        furthest_m = max(frame.error_m() for frame in car.frames)
-        off = "under 1 mm" if furthest_m < 0.001 else f"{furthest_m:.4g} m"
-        row = f"{mark} {method_text(car.track.motion, car.track.correction):20}{off:>13}"
-    energies = [car.track.energy(frame.x_m, frame.v_mps) for frame in car.frames]
-    for energy in (energies[0], min(energies), max(energies), energies[-1]):
-        row += energy_text(energy).rjust(11)
-    return row
-
-def tell_cars(cars: dict[str, Car]) -> None:
-    """Print a table with a row for each car, and a line for its hops and its end."""
-    marks = [mark for mark in ("*", "o", "+", *METHODS) if mark in cars]
-    print()
-    print("                      furthest from    energy in J/kg")
-    print("                     its own truth      first      least       most       last")
-    for mark in marks:
-        print(table_row(mark, cars[mark]))
-    print("Energy 0: it lies on the wall to which it is accelerated. Below 0: beyond it.")
-    print("A car that stays on the track is never further off than the track is long.")
-    print("The hops in frames, each from one bounce to the next, and the end:")
-    for mark in marks:
-        words = [hops_text(cars[mark]), end_text(cars[mark])]
-        print(mark, "; ".join([text for text in words if text]))
-    print("At rest: for 0.3 s and ten frames it had no more energy than it needs to rise")
-    print("3 mm, and the energy of the speed that it gains in one frame.")
 
 def run(cars: dict[str, Car], scene: Scene, view: Scene, has_details: bool, max_frames: int,
         keys: Keys | NoKeys) -> None:
@@ -768,26 +711,12 @@ class Point(NamedTuple):
     error_m: float
     cost_us: float
 
-def measure(track: Track) -> dict[str, list[Point]]:
-    """Measure every method at every rate, and print the table row by row."""
-    motions = "".join([f"{letter}: {motion}".rjust(15) for letter, (motion, _) in METHODS.items()])
-    corrections = "".join([f"+ {correction}".rjust(15) for _, correction in METHODS.values()])
-    print()
-    print("    " + motions)
-    print("    " + corrections)
-    print(" FPS" + "  error m    us" * len(METHODS))
-    points: dict[str, list[Point]] = {letter: [] for letter in METHODS}
-    for fps in CHART_FPS:
-        row = f"{fps:4}"
-        for letter, (motion, correction) in METHODS.items():
-            method = replace(track, motion=motion, correction=correction)
-            point = Point(fps, largest_error_m(method, fps), cost_us(method, fps))
-            points[letter].append(point)
-            row += f"{point.error_m:9.1e}{point.cost_us:6.0f}"
-        print(row, flush=True)
-    orders = [order_text(series, track.length_m()).rjust(7) + " " * 8 for series in points.values()]
-    print("order" + "".join(orders).rstrip())
-    print()
+def measure(track: Track, fps: int) -> dict[str, Point]:
+    """Measure each of the five methods at this rate."""
+    points = {}
+    for letter, (motion, correction) in METHODS.items():
+        method = replace(track, motion=motion, correction=correction)
+        points[letter] = Point(fps, largest_error_m(method, fps), cost_us(method, fps))
     return points
 
 ROUND_OFF_M = 1e-9  # smaller errors have no order
@@ -815,7 +744,27 @@ def error_column(error_m: float) -> int:
     error_m = min(error_m, LARGEST_ERROR_M)
     return round(COLUMNS_A_DECADE * math.log10(error_m / LEAST_ERROR_M))
 
-def picture(points: dict[str, list[Point]], column_m: float) -> None:
+def print_table(track: Track) -> dict[str, list[Point]]:
+    """Print the table, row by row as it is measured. Returns the points of each method."""
+    motions = "".join([f"{letter}: {motion}".rjust(15) for letter, (motion, _) in METHODS.items()])
+    corrections = "".join([f"+ {correction}".rjust(15) for _, correction in METHODS.values()])
+    print()
+    print("    " + motions)
+    print("    " + corrections)
+    print(" FPS" + "  error m    us" * len(METHODS))
+    points: dict[str, list[Point]] = {letter: [] for letter in METHODS}
+    for fps in CHART_FPS:
+        row = f"{fps:4}"
+        for letter, point in measure(track, fps).items():
+            points[letter].append(point)
+            row += f"{point.error_m:9.1e}{point.cost_us:6.0f}"
+        print(row, flush=True)
+    orders = [order_text(series, track.length_m()).rjust(7) + " " * 8 for series in points.values()]
+    print("order" + "".join(orders).rstrip())
+    print()
+    return points
+
+def print_picture(points: dict[str, list[Point]], column_m: float) -> None:
     """Draw the points as the film is drawn: error to the right, cost downwards."""
     letters: dict[tuple[int, int], str] = {}  # by row and column
     for letter, series in points.items():
@@ -838,7 +787,7 @@ def picture(points: dict[str, list[Point]], column_m: float) -> None:
         print(line.rstrip())
     print()
 
-def conclude(points: dict[str, list[Point]], column_m: float) -> None:
+def print_answer(points: dict[str, list[Point]], column_m: float) -> None:
     """Answer the question: which methods stay within a column, and what do they cost?"""
     answers = []
     for letter, (motion, correction) in METHODS.items():
@@ -864,15 +813,15 @@ def chart(scene: Scene, title: str) -> None:
     say("Which method is the cheapest that stays within a column of the film? Each method runs ten "
         "times for 20 simulated seconds. Error: the largest distance from the true car. Cost: the "
         "time that a simulated second takes, in us (microseconds). Order: 1 if half the dt makes "
-        "half the error, 2 if it makes a quarter, ? if fewer than three errors are below a tenth "
-        "of the track, none if there is only round-off. Method e is how the true car is moved, so "
-        "its error is 0.")
-    points = measure(scene)
-    picture(points, column_m)
+        "half the error, 2 if it makes a quarter, ? if fewer than three errors are more than "
+        "round-off and less than a tenth of the track, none if all errors are round-off. Method e "
+        "is how the true car is moved, so its error is 0.")
+    points = print_table(scene)
+    print_picture(points, column_m)
     legend = [f"{letter}: {method_text(*method)}" for letter, method in METHODS.items()]
     say(f"{', '.join(legend)}. Error to the right, cost downwards: the best are in the upper left. "
         "Where letters meet there is a +.")
-    conclude(points, column_m)
+    print_answer(points, column_m)
     say(f"Next: {PYTHON} airtrack.py stability")
 
 # ==== 8. The map: where methods fail ============================================================
@@ -887,8 +836,8 @@ VERDICTS = {  # from the worst to the best. W is not for one run, but for ten: s
     "W": "as G in some runs, as L in others",
     "G": "over a column off and, on average in the last 5 s, over 1 % too much energy",
     "L": "over a column off and, on average in the last 5 s, over 1 % too little energy",
-    "P": "over a column of the film off, but with the right energy",
-    "-": "within a column of the truth",
+    "P": "over a column off, but in the last 5 s with the right energy",
+    "-": "within a column of the film",
 }
 FROM_WORST_TO_BEST = list(VERDICTS)
 
@@ -940,10 +889,10 @@ def stability(scene: Scene, title: str) -> None:
     column_m = 1 / scene.m_to_px
     say(f"Stability. {title}")
     say("Which methods are right, and from which frame rate on? Each runs ten times for 20 "
-        "simulated seconds, and is looked at every 0.1 s. A small letter: only some of the ten "
-        "runs are so bad. 100 % of the energy is v^2/2 at the start + the acceleration * the "
-        "length of the track. Example 20 says why hops get too much energy (H, G), and example 19 "
-        "why they get too little (L).")
+        "simulated seconds, and is looked at every 0.1 s or, if it is longer, every frame. A small "
+        "letter: only some of the ten runs are so bad. 100 % of the energy is v^2/2 at the start + "
+        "the acceleration * the length of the track. Example 20 says why hops get too much energy "
+        "(H, G), and example 19 why they get too little (L).")
     print()
     print(" " * 20 + "".join([str(fps).rjust(6) for fps in MAP_FPS]) + " FPS")
     for motion in MOTIONS:
@@ -1053,24 +1002,83 @@ def stability(scene: Scene, title: str) -> None:
 # from rest, k is 0. Then the car hops for ever, as it should, if round-off lets it.
 
 # ==== 10. Before and after a film ===============================================================
-# What is said before a film, and what after it?
-
-# Chart and map use these settings alone. They choose methods and frame rates themselves.
-FOR_COMMANDS = ["x_m", "v_mps", "a_mps2", "left_edge_m", "right_edge_m", "CR", "m_to_px",
-                "width_px"]
+# What is said before a film, and what after it? What happened to the cars is worked out after the
+# film, from the frames that each car has kept.
 
 class Wanted(NamedTuple):
-    """What the user wants to see."""
+    """What the user wants, by the words of the command line."""
 
     command: str | None  # chart, stability or, for a film, None
     number: int  # of the example
     typed: dict[str, str]  # the settings that replace the example's own, as they were typed
-    scene: Scene
-    unchanged: Scene | None  # the example as it is, if a + is drawn for it
-    texts: Example  # the one whose texts fit
+    changes: dict[str, Any]  # their values
     has_details: bool
     is_fast: bool
     max_frames: int
+
+class Shown(NamedTuple):
+    """What a film shows."""
+
+    scene: Scene
+    unchanged: Scene | None  # the example as it is, if a + is drawn for it
+    texts: Example  # the one whose texts fit
+
+def is_beyond_a_wall(car: Car) -> bool:
+    """Whether the car was beyond a wall in all of its last ten frames, not only after a bounce."""
+    return not any(car.track.has_on_it(frame.x_m) for frame in car.frames[-10:])
+
+def energy_text(energy: float) -> str:
+    """An energy with up to four significant digits."""
+    if energy != 0 and abs(energy) < 0.001:
+        return "<0.001"
+    return f"{energy:.4g}"
+
+def hops_text(car: Car) -> str:
+    """How many frames there are from bounce to bounce. Of many, the first four and the last two."""
+    bounces = [number for number, frame in enumerate(car.frames) if frame.mark_m is not None]
+    hops = [str(after - before) for before, after in pairwise(bounces)]
+    if len(hops) > 6:
+        hops = [*hops[:4], "...", *hops[-2:]]
+    return " ".join(hops)
+
+def end_text(car: Car) -> str:
+    """What the car does at the end of the film."""
+    began_s = rest_began_s(car)
+    if began_s is not None:
+        return f"at rest from {began_s:.2f} s on"
+    if is_beyond_a_wall(car):
+        return "is beyond a wall"
+    return "still moves"
+
+def table_row(mark: str, car: Car) -> str:
+    """A car's row of the table: its method, how far off it was, and its energies."""
+    if mark == "o":
+        row = f"{'o the truth':35}"
+    else:
+        furthest_m = max(frame.error_m() for frame in car.frames)
+        off = "under 1 mm" if furthest_m < 0.001 else f"{furthest_m:.4g} m"
+        row = f"{mark} {method_text(car.track.motion, car.track.correction):20}{off:>13}"
+    energies = [car.track.energy(frame.x_m, frame.v_mps) for frame in car.frames]
+    for energy in (energies[0], min(energies), max(energies), energies[-1]):
+        row += energy_text(energy).rjust(11)
+    return row
+
+def tell_cars(cars: dict[str, Car]) -> None:
+    """Print a table with a row for each car, and a line for its hops and its end."""
+    marks = [mark for mark in ("*", "o", "+", *METHODS) if mark in cars]
+    print()
+    print("                      furthest from    energy in J/kg")
+    print("                     its own truth      first      least       most       last")
+    for mark in marks:
+        print(table_row(mark, cars[mark]))
+    print("Energy 0: it lies on the wall to which it is accelerated. Below 0: beyond it.")
+    print("A car that stays on the track is never further off than the track is long.")
+    print("The hops in frames, each from one bounce to the next, and the end:")
+    for mark in marks:
+        words = [hops_text(cars[mark]), end_text(cars[mark])]
+        print(mark, "; ".join([text for text in words if text]))
+    print("At rest: for 0.3 s and ten frames it had no more energy than it needs to rise")
+    print("3 mm, and the energy of the speed that it gains in one frame.")
 
 def title_text(wanted: Wanted) -> str:
     """Which scene the film is of, and what the user changed."""
@@ -1095,35 +1103,40 @@ def scene_text(scene: Scene) -> str:
             text += f"; {letter}: {method_text(motion, correction)}"
     return text
 
-def film(wanted: Wanted) -> None:
+def film(wanted: Wanted, shown: Shown) -> None:
     """Say what to look for, leave time to guess, show the film, and say what was to be seen."""
-    scene = wanted.scene
+    scene = shown.scene
+    has_details = wanted.has_details or shown.texts.has_details
     say(title_text(wanted))
     say(scene_text(scene))
-    view = fitted(scene, wanted.has_details)
+    view = fitted(scene, has_details)
     if view.width_px < scene.width_px:
         say(f"The picture is drawn {view.width_px} columns wide, to fit into the terminal.")
-    cars = cars_of(scene, wanted.unchanged)
+    cars = cars_of(scene, shown.unchanged)
     taking = nullcontext(NoKeys()) if wanted.is_fast else taken_keys()  # NoKeys takes nothing
     with taking as keys:
-        for text in keys.texts_before(wanted.texts.look_for):
+        for text in keys.texts_before(shown.texts.look_for):
             say(text)
         keys.leave_time()
         print()
-        run(cars, scene, view, wanted.has_details, wanted.max_frames, keys)
+        run(cars, scene, view, has_details, wanted.max_frames, keys)
     if len(cars["*"].frames) == 1:
         return  # it was ended before it began
     tell_cars(cars)
     if not wanted.is_fast:
-        say_after(wanted)
+        say_after(wanted, shown)
 
-def say_after(wanted: Wanted) -> None:
+# Chart and map use these settings alone. They choose methods and frame rates themselves.
+FOR_COMMANDS = ["x_m", "v_mps", "a_mps2", "left_edge_m", "right_edge_m", "CR", "m_to_px",
+                "width_px"]
+
+def say_after(wanted: Wanted, shown: Shown) -> None:
     """Say what was to be seen or, where nobody knows it, what to try. Then say what comes next."""
     print()
-    say(wanted.texts.seen)
-    if wanted.texts in (CHANGED, CHANGED_FRAMES, OWN_SCENE):
+    say(shown.texts.seen)
+    if shown.texts in (CHANGED, CHANGED_FRAMES, OWN_SCENE):
         say("The map tells which methods stay within a column of the film, which is "
-            f"{1 / wanted.scene.m_to_px:.2g} m wide:")
+            f"{1 / shown.scene.m_to_px:.2g} m there:")
         words = [f"{name}={text}" for name, text in wanted.typed.items() if name in FOR_COMMANDS]
         print(PYTHON, "airtrack.py stability", wanted.number, *words)
     following = wanted.number + 1 if wanted.number + 1 in EXAMPLES else "chart"
@@ -1274,37 +1287,10 @@ def make_parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter)  # it leaves our lines as they are
     parser.add_argument("words", nargs="*", metavar="WORD", help="see above")
     parser.add_argument("-d", "-D", dest="details", action="store_true", help="as the word d")
-    parser.add_argument("--fast", action="store_true", help="no waiting, keys or colours")
+    parser.add_argument("--fast", action="store_true", help="no waiting, keys, colours, last text")
     parser.add_argument("--frames", type=int, metavar="N", default=FRAMES,
                         help=f"stop after N frames; without it, after {FRAMES}")
     return parser
-
-def film_wanted(number: int, changes: dict[str, Any]) -> tuple[Scene, Scene | None, Example]:
-    """What a film shows: its scene, the example as it is (for the +), and the texts that fit."""
-    if number not in EXAMPLES:
-        return scene_of(OWN_SCENE.settings | changes), None, OWN_SCENE
-    example = EXAMPLES[number]
-    as_it_is = DEFAULTS | example.settings
-    changed = [name for name in changes if changes[name] != as_it_is[name]]
-    changes_track = any(name in OF_THE_TRACK for name in changed)
-    changes_frames = any(name in OF_THE_FRAMES for name in changed)
-    if not changes_track and not changes_frames:
-        return scene_of(example.settings | changes), None, example
-    # Nobody knows what happens in a changed example. So the film shows its true car.
-    scene = scene_of(example.settings | {"show_exact_mark": True} | changes)
-    if changes_frames:
-        return scene, None, CHANGED_FRAMES  # a + would need frames of its own
-    return scene, scene_of(example.settings), CHANGED
-
-def command_wanted(command: str, number: int, changes: dict[str, Any]) -> Scene:
-    """The scene of a chart or a map. Raises ValueError for a setting that it does not take."""
-    refused = [name for name in changes if name not in FOR_COMMANDS]
-    if refused:
-        raise ValueError(f"{command} takes no {refused[0]}: it chooses methods and frame rates "
-                         f"itself, and takes an EXAMPLE and {', '.join(FOR_COMMANDS)}")
-    settings = EXAMPLES.get(number, OWN_SCENE).settings | changes
-    scene = scene_of({name: settings[name] for name in FOR_COMMANDS if name in settings})
-    return replace(scene, x_m=scene.to_track(scene.x_m))  # a start beyond a wall is not compared
 
 class Words(NamedTuple):
     """The words of the command line, sorted."""
@@ -1329,8 +1315,7 @@ def sorted_words(words: list[str]) -> Words:
 
 def wanted_by(options: argparse.Namespace, unknown_options: list[str]) -> Wanted:
     """What the words and options of the command line ask for. Raises ValueError."""
-    words = sorted_words([*options.words, *unknown_options])
-    commands, numbers, typed = words.commands, words.numbers, words.typed
+    commands, numbers, typed, has_d = sorted_words([*options.words, *unknown_options])
     if len(commands) > 1 or len(numbers) > 1:
         found = [str(each) for each in [*commands, *numbers]]
         raise ValueError(f"one command and one EXAMPLE at a time, not {', '.join(found)}")
@@ -1342,39 +1327,63 @@ def wanted_by(options: argparse.Namespace, unknown_options: list[str]) -> Wanted
     if numbers:
         number = numbers[0]
     changes = {name: value_of(name, text) for name, text in typed.items()}
-    unchanged, texts = None, OWN_SCENE
-    has_details = options.details or words.has_details
-    if command is None:
-        scene, unchanged, texts = film_wanted(number, changes)
-    else:
-        if has_details or options.fast or options.frames != FRAMES:
-            raise ValueError(f"{command} is no film: it takes no d, --fast or --frames")
-        scene = command_wanted(command, number, changes)
-    if number == 0:
-        has_details = True  # as the lesson's one-pager does
-    return Wanted(command, number, typed, scene, unchanged, texts, has_details, options.fast,
-                  options.frames)
+    return Wanted(command, number, typed, changes, has_details=options.details or has_d,
+                  is_fast=options.fast, max_frames=options.frames)
+
+def shown_by(wanted: Wanted) -> Shown:
+    """What the film shows. Raises ValueError for settings that exclude each other."""
+    changes = wanted.changes
+    if wanted.number not in EXAMPLES:
+        return Shown(scene_of(OWN_SCENE.settings | changes), None, OWN_SCENE)
+    example = EXAMPLES[wanted.number]
+    as_it_is = DEFAULTS | example.settings
+    changed = [name for name in changes if changes[name] != as_it_is[name]]
+    changes_track = any(name in OF_THE_TRACK for name in changed)
+    changes_frames = any(name in OF_THE_FRAMES for name in changed)
+    if not changes_track and not changes_frames:
+        return Shown(scene_of(example.settings | changes), None, example)
+    # Nobody knows what happens in a changed example. So the film shows its true car.
+    scene = scene_of(example.settings | {"show_exact_mark": True} | changes)
+    if changes_frames:
+        return Shown(scene, None, CHANGED_FRAMES)  # a + would need frames of its own
+    return Shown(scene, scene_of(example.settings), CHANGED)
+
+def compared_by(wanted: Wanted) -> Scene:
+    """The scene of a chart or a map. Raises ValueError for what these do not take."""
+    refused = [name for name in wanted.changes if name not in FOR_COMMANDS]
+    if refused:
+        raise ValueError(f"{wanted.command} takes no {refused[0]}: it chooses methods and frame "
+                         f"rates itself, and takes an EXAMPLE and {', '.join(FOR_COMMANDS)}")
+    if wanted.has_details or wanted.is_fast or wanted.max_frames != FRAMES:
+        raise ValueError(f"{wanted.command} is no film: it takes no d, --fast or --frames")
+    settings = EXAMPLES.get(wanted.number, OWN_SCENE).settings | wanted.changes
+    scene = scene_of({name: settings[name] for name in FOR_COMMANDS if name in settings})
+    return replace(scene, x_m=scene.to_track(scene.x_m))  # a start beyond a wall is not compared
 
 def main(argv: list[str] | None = None) -> int:
     """Do what argv or, without it, the command line asks for. Returns the exit status."""
     parser = make_parser()
     options, unknown_options = parser.parse_known_intermixed_args(argv)
     try:
+        # First check all that was typed. A partial is a function that has its arguments already.
         wanted = wanted_by(options, unknown_options)
+        if wanted.command is None:
+            show = partial(film, wanted, shown_by(wanted))
+        else:
+            scene = compared_by(wanted)
+            title = f"Scene of example {wanted.number}: {track_text(scene)}"
+            show = partial(COMMANDS[wanted.command], scene, title)
     except ValueError as fault:
         parser.error(str(fault))  # this prints the text and ends the program with status 2
     try:
-        if wanted.command is None:
-            film(wanted)
-        else:
-            title = f"Scene {wanted.number}: {track_text(wanted.scene)}"
-            COMMANDS[wanted.command](wanted.scene, title)
+        show()
         sys.stdout.flush()
     except KeyboardInterrupt:
         return 130  # the status of a program that Ctrl-C has ended
     except OSError as fault:  # the output takes no more
         # Python prints what is left when it ends. From here on this goes nowhere.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nowhere, sys.stdout.fileno())
         if isinstance(fault, BrokenPipeError):
             return 0  # nobody reads any more, as after | head
         print(f"airtrack.py: error: {fault}", file=sys.stderr)  # the disk is full, say

@@ -32,7 +32,8 @@ class Example(NamedTuple):
     title: str
     settings: dict[str, Any]
     look_for: str  # before the film, without the answer
-    seen: str = ""  # after it
+    seen: str  # after it
+    has_details: bool = False  # whether its film shows them anyway
 
 ELASTIC = {"x_m": 2.0, "a_mps2": -2.0, "CR": 1.0, "show_start_mark": True}
 COARSE = ELASTIC | {"fps_target": 10.0}
@@ -50,7 +51,7 @@ EXAMPLES = {
         "car be after 45 s?",
         "At the left wall, to which it is accelerated. Each bounce takes 20 % of its speed, so "
         "the bounces get shorter. From about t = 44 s on each frame moves it a little into the "
-        "wall and puts it back."),
+        "wall and puts it back.", has_details=True),
     1: Example("A first look", {
         "x_m": 2.0, "a_mps2": -1.5, "CR": 0.7, "show_collision_mark": False},
         "Watch the bottom row only. There the car (*) moves between its walls (|). At each "
@@ -259,11 +260,11 @@ TRY = ("The table tells how far the * was at most from its true car, and its ene
        "correction=rewind, then replay. If only the moments of the bounces may be wrong, "
        "correction=conserve is enough.")
 CHANGED = Example("A changed example", {},
-    "The o is the true car of the changed scene. The + is the car of the example as it is. Where "
-    "you do not see one of them, it is under the *. (< and > mean: the * is out of the picture.) "
-    "What does your change do to the *? Is the * right now?", TRY)
+    "An o is the true car of the changed scene. A + is the car of the example as it is. If you do "
+    "not see them, they are under the *. (< and > mean: the * is out of the picture.) What does "
+    "your change do to the *? Is the * right now?", TRY)
 CHANGED_FRAMES = Example("An example with other frames", {},
-    "The o is the true car. Where you see no o, it is under the *. What does your change of the "
+    "An o is the true car. If you do not see it, it is under the *. What does your change of the "
     "frames do to the *? Is the * right now?", TRY)
 OWN_SCENE = Example(f"Your own scene (the examples are 0 to {max(EXAMPLES)})", {
     "show_exact_mark": True},
@@ -459,9 +460,10 @@ WHY_QUIT = {"x": "x was pressed", CTRL_C: "Ctrl-C was pressed", ESC: "Esc was pr
             CLOSED: "the window was closed", GONE: "the terminal is gone"}
 PAUSE_KEYS = ("p", "\x13")  # Ctrl-S
 ENTER_KEYS = ("\r", "\n")
-READING_S = 10.0  # enough for the 60 words or so before a film and its question
+READING_S = 10.0  # enough for the question. p holds the text for slower readers.
 READING_WITHOUT_KEYS_S = 3.0  # nobody can begin it earlier with Enter, so do not keep them
 LOOK_S = 0.05  # between two looks at the keys: too short to notice
+# The lesson that this program follows greets with it who begins a film by Ctrl-C.
 DIAMOND = "   *\n  * *\n *   *\n  * *\n   *"
 
 class Keys:
