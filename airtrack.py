@@ -16,9 +16,9 @@ For example: python airtrack.py 10 d CR=0.9
 
 In a film, * is the car and | is a wall. < or > is the car, too, when it is out
 of the picture. If the car bounces, 0 is where the frame would have ended
-without walls. A . is the start. o is the true car. If you change the car or
-the track of an example, + is the car of the example as it is. a to e are the cars of
-five methods.
+without walls. A . is the start. o is the true car. If you change the car or the
+track of an example, + is the car of the example as it is. a to e are the cars
+of five methods.
 
 README.md says what this is good for. .github/lesson.md is a lesson for a class.
 """
@@ -1371,7 +1371,7 @@ def main(argv: list[str] | None = None) -> int:
             show = partial(film, wanted, shown_by(wanted))
         else:
             scene = compared_by(wanted)
-            title = f"Scene of example {wanted.number}: {track_text(scene)}"
+            title = f"Scene {wanted.number}: {track_text(scene)}"
             show = partial(COMMANDS[wanted.command], scene, title)
     except ValueError as fault:
         parser.error(str(fault))  # this prints the text and ends the program with status 2

