@@ -591,8 +591,8 @@ def rest_began_s(car: Car) -> float | None:
 
     A car is at rest if in each frame, for 0.3 s and ten frames, it is on the track, and its energy
     is too small to rise 3 mm above its floor. A method may leave the car the speed a * dt that its
-    acceleration gives in a single frame. This speed would let it rise |a| * dt^2/2, so this height
-    is allowed, too, up to 5 cm. (Without an acceleration the speed must be 0.)
+    acceleration gives in a single frame. This speed would let it rise |a| * dt^2/2. So this height
+    is allowed, too, but no more than 5 cm in all. (Without an acceleration the speed must be 0.)
     """
     track = car.track
     g_mps2 = abs(track.a_mps2)
