@@ -3,7 +3,8 @@
 So its film is a graph: position to the right, time downwards.
 
 A WORD is one of these, in any order:
-    EXAMPLE      the number of an example (without it 1, for chart and map 12)
+    EXAMPLE      the number of an example (if you give none: for a film 1, for
+                 chart and stability 12)
     d            details after each line: position x, velocity v, frame rate FPS
                  and, if the true car o is drawn, err: how far the car is to the
                  right of the o
@@ -27,7 +28,7 @@ README.md says what this is good for. .github/lesson.md is a lesson for a class.
 #                         Section 4 ends with a table: which method is good for what.
 #     Sections 5 and 6    the film: how a frame is drawn, and the main loop.
 #     Sections 7 to 9     how wrong the methods are: the chart, the map, and the law behind the map.
-#     Sections 10 to 12   what is said around a film, the settings, and the command line.
+#     Sections 10 to 12   the texts before and after a film, the settings, and the command line.
 # The file examples.py holds the numbered examples and the keys.
 
 import argparse
@@ -42,7 +43,7 @@ from collections.abc import Iterator
 from contextlib import nullcontext
 from dataclasses import dataclass, fields, replace
 from functools import partial
-from itertools import pairwise, takewhile
+from itertools import pairwise
 from statistics import fmean, linear_regression
 from typing import Any, NamedTuple
 
@@ -153,12 +154,12 @@ def rebound(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) ->
 def conserve(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> State:
     """Put the car on the wall, as surface does, but with the speed that the energy allows.
 
-    With the exact motion the energy is right after each bounce that is found in its frame. Only the
-    moment is wrong: the car leaves the wall at the end of the frame, so up to a frame late.
+    With the exact motion the energy is right after each bounce whose move ends beyond the wall.
+    Only the moment is wrong: the car leaves the wall at the end of the frame, up to a frame late.
     """
     # Take the car back to the wall. E does not change, so its speed w there follows from
-    # w^2 = v^2 - 2 a depth. Round-off may make this negative. So may the motion backward, which
-    # takes energy, and a start beyond the wall. The bounce leaves the speed CR w.
+    # w^2 = v^2 - 2 a depth. Round-off may make this negative, and so may the motion backward or a
+    # start beyond the wall. The bounce leaves the speed CR w.
     w_squared = max(0.0, inward_mps * inward_mps - 2 * inward_mps2 * depth_m)
     return 0.0, -CR * math.sqrt(w_squared)  # 1.93 m/s in the drawn collision
 
@@ -553,7 +554,8 @@ def paced(scene: Scene, keys: Keys | NoKeys, max_frames: int) -> Iterator[tuple[
     than dt, because computing and printing take time, too.
     """
     # Begin as if the time of frame 1 had just passed. So frame 1 is due now.
-    due_s = shown_s = time.perf_counter() - planned_length(scene, 1)
+    shown_s = time.perf_counter() - planned_length(scene, 1)
+    due_s = shown_s
     t_s = 0.0
     for frame in range(1, max_frames + 1):
         planned_s = planned_length(scene, frame)
@@ -590,9 +592,9 @@ def rest_began_s(car: Car) -> float | None:
     """Since when the car is at rest, or None if it is not.
 
     A car is at rest if in each frame, for 0.3 s and ten frames, it is on the track, and its energy
-    is too small to rise 3 mm above its floor. A method may leave the car the speed a * dt that its
-    acceleration gives in a single frame. This speed would let it rise |a| * dt^2/2. So this height
-    is allowed, too, but no more than 5 cm in all. (Without an acceleration the speed must be 0.)
+    is too small to rise 3 mm above its floor. With some methods a car that lies keeps a speed of
+    up to a * dt. This speed would let it rise |a| * dt^2/2. So this height is allowed, too, but no
+    more than 5 cm in all. (Without an acceleration the speed must be 0.)
     """
     track = car.track
     g_mps2 = abs(track.a_mps2)
@@ -606,7 +608,9 @@ def rest_began_s(car: Car) -> float | None:
             break
         began_s = frame.t_s
         quiet_frames += 1
-    lasted_s = now_s - began_s + 1e-9  # round-off: nine frames of 1/30 s may be less than 0.3 s
+    # From the end of the first quiet frame to the end of the tenth are nine frames. At 30 FPS this
+    # is 0.3 s, but for round-off.
+    lasted_s = now_s - began_s + 1e-9
     if quiet_frames < REST_FRAMES or lasted_s < REST_S:
         return None
     return began_s
@@ -746,11 +750,13 @@ def error_column(error_m: float) -> int:
 
 def print_table(track: Track) -> dict[str, list[Point]]:
     """Print the table, row by row as it is measured. Returns the points of each method."""
-    motions = "".join([f"{letter}: {motion}".rjust(15) for letter, (motion, _) in METHODS.items()])
-    corrections = "".join([f"+ {correction}".rjust(15) for _, correction in METHODS.values()])
+    motions = corrections = "    "
+    for letter, (motion, correction) in METHODS.items():
+        motions += f"{letter}: {motion}".rjust(15)
+        corrections += f"+ {correction}".rjust(15)
     print()
-    print("    " + motions)
-    print("    " + corrections)
+    print(motions)
+    print(corrections)
     print(" FPS" + "  error m    us" * len(METHODS))
     points: dict[str, list[Point]] = {letter: [] for letter in METHODS}
     for fps in CHART_FPS:
@@ -759,8 +765,10 @@ def print_table(track: Track) -> dict[str, list[Point]]:
             points[letter].append(point)
             row += f"{point.error_m:9.1e}{point.cost_us:6.0f}"
         print(row, flush=True)
-    orders = [order_text(series, track.length_m()).rjust(7) + " " * 8 for series in points.values()]
-    print("order" + "".join(orders).rstrip())
+    row = "order"
+    for series in points.values():
+        row += order_text(series, track.length_m()).rjust(7) + " " * 8
+    print(row.rstrip())
     print()
     return points
 
@@ -791,8 +799,11 @@ def print_answer(points: dict[str, list[Point]], column_m: float) -> None:
     """Answer the question: which methods stay within a column, and what do they cost?"""
     answers = []
     for letter, (motion, correction) in METHODS.items():
-        # From the highest rate down, as long as the error is small enough.
-        good = list(takewhile(lambda point: point.error_m <= column_m, reversed(points[letter])))
+        good = []
+        for point in reversed(points[letter]):  # from the highest rate down
+            if point.error_m > column_m:
+                break
+            good.append(point)
         if good:
             cheapest = good[-1]
             text = f"  {letter}  {method_text(motion, correction):18}  "
@@ -880,7 +891,7 @@ def cell(letters: list[str]) -> str:
     worst = min(letters, key=FROM_WORST_TO_BEST.index)  # the first in this list
     if worst == "G" and "L" in letters:
         return "W"
-    if letters.count(worst) < len(letters):
+    if any(letter != worst for letter in letters):
         return worst.lower()
     return worst
 
@@ -953,26 +964,26 @@ def stability(scene: Scene, title: str) -> None:
 # In truth w would be 1.1, then 0.88, then 0.704. (If 2 * u/(g * dt) is a whole number, round-off
 # decides whether the hop ends there or a frame later.)
 #
-# With forward each frame adds g * dt^2/2 to the height, and with backward each frame takes as much.
-# So with surface
+# Compared with exact, each frame of forward adds g * dt^2/2 to the height, and each frame of
+# backward takes as much. So with surface
 #         forward:   n = the next whole number above 2 * u/(g * dt) + 1
 #         backward:  n = the next whole number above 2 * u/(g * dt) - 1, but at least 1
-# and k is one larger or, in hops of two frames or more, one smaller than with exact. With rebound a
-# hop begins above the floor, so it may last longer. In hops of two frames or more, k is more than
-# the first number and at most the second:
+# With forward k is one larger than with exact. With backward k is one smaller, if the hop has two
+# frames or more. With rebound a hop begins above the floor, so it may last longer. In hops of two
+# frames or more, k is more than the first number and at most the second:
 #
 #                  surface     rebound
 #     forward      1 to 2      1 to 3
 #     exact        0 to 1      0 to 2
 #     backward    -1 to 0     -1 to 1
 #
-# (The tests check this table in every hop of many films. In hops of one frame k may be larger. So
-# at 1 FPS a car with backward + surface lies on its floor, keeps a velocity, and has a G in the
-# map.)
+# (The tests check this table in every hop of many films. In hops of one frame backward may have a k
+# above 0. So at 1 FPS the car of example 12 with backward + surface lies on its floor, keeps a
+# velocity, and has a G in the map.)
 #
 # What does k do?
 #     k > 0   The car gets speed from nothing. At CR = 1 it hops higher and higher (G in the map).
-#             At CR < 1 it may hop for ever (H, if it hops over 1 mm high): see the steady hop.
+#             At CR < 1 it may hop for ever (H, if it hops over 1 mm high), as told below.
 #     k < 0   The car loses speed. It comes to rest, even at CR = 1 (L).
 #     k = 0   The car comes back as fast as it left.
 #
@@ -1135,8 +1146,8 @@ def say_after(wanted: Wanted, shown: Shown) -> None:
     print()
     say(shown.texts.seen)
     if shown.texts in (CHANGED, CHANGED_FRAMES, OWN_SCENE):
-        say("The map tells which methods stay within a column of the film, which is "
-            f"{1 / shown.scene.m_to_px:.2g} m there:")
+        say("The map tells which methods stay within a column of the film. There a column is "
+            f"{1 / shown.scene.m_to_px:.2g} m wide:")
         words = [f"{name}={text}" for name, text in wanted.typed.items() if name in FOR_COMMANDS]
         print(PYTHON, "airtrack.py stability", wanted.number, *words)
     following = wanted.number + 1 if wanted.number + 1 in EXAMPLES else "chart"
@@ -1201,12 +1212,12 @@ def check(track: Track) -> None:
     if right_m - left_m < 0.01 - 1e-9:  # round-off: 2.21 - 2.2 is a little less than 0.01
         raise ValueError(f"right_edge_m must be left_edge_m + 0.01 or more, so from "
                          f"{left_m + 0.01:.10g} on, not {right_m}")
-    needed_by = f"with correction={track.correction}"
+    condition = f"with correction={track.correction}"
     if track.correction in EXACT_ONLY and track.motion != "exact":
-        raise ValueError(f"motion must be exact {needed_by}, not {track.motion}: choose "
+        raise ValueError(f"motion must be exact {condition}, not {track.motion}: choose "
                          "motion=exact or another correction")
     if track.correction in EXACT_ONLY and not track.has_on_it(track.x_m):
-        raise ValueError(f"x_m must be from {left_m} to {right_m} {needed_by}, not {track.x_m}: "
+        raise ValueError(f"x_m must be from {left_m} to {right_m} {condition}, not {track.x_m}: "
                          "choose a start on the track or another correction")
 
 # ==== 12. The command line ======================================================================
@@ -1227,6 +1238,7 @@ OTHER_NAMES = {"fps": "fps_target", "dt": "fps_target", "g": "a_mps2", "gravity"
 
 def hint(word: str) -> str:
     """What may have been meant by an unknown word."""
+    # What is meant, by what may be typed:
     hints = OTHER_NAMES | {each.lower(): each for each in [*SETTINGS, *COMMANDS]}
     hints |= {each: f"motion={each}" for each in MOTIONS}
     hints |= {each: f"correction={each}" for each in ALL_CORRECTIONS}
