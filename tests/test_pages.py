@@ -61,9 +61,9 @@ def test_every_link_to_a_file_or_a_heading_leads_there(page: str) -> None:
 
 CURE = block(README, "from math import sqrt").replace("dt = clock.tick(60)/1000\n", "")
 PADDLE = block(README, "u = (paddle")
-LIFT = block(README, "u = (lift")
-IN_GAME = CURE.replace("if x < left", PADDLE + "if x < left").replace("if y > floor", LIFT
-                                                                       + "if y > floor")
+LIFTS = block(README, "u = (Y - old_Y)")
+FIXED = CURE[CURE.index("for Y, x1"):CURE.index("if y > floor")]
+IN_GAME = CURE.replace(FIXED, LIFTS).replace("if x > right", PADDLE + "if x > right")
 CODE = compile(CURE, "README.md", "exec")
 
 
@@ -167,25 +167,25 @@ def test_a_ball_leaves_a_platform_at_its_end_and_one_face_takes_its_part_of_a_fr
 @pytest.mark.parametrize("seed", range(20))
 def test_a_paddle_and_a_lift_take_each_ball_and_give_it_their_speed(seed: int) -> None:
     rng = random.Random(seed)
-    u, CR, away = rng.uniform(-3, 3), rng.uniform(0, 1), rng.uniform(0.11, 1)
-    for code, place, speed in ((PADDLE, "x", "vx"), (LIFT, "y", "v")):
-        face = "paddle" if place == "x" else "lift"
-        moved = compile(IN_GAME, "README.md", "exec")
-        game = ball(CR=CR, g=0.0, paddle=1e3, lift=1e3, lift_x1=-1e3, lift_x2=1e3,
-                    paddle_top=-1e3, paddle_bottom=1e3)
-        game |= {place: 1.0 - away, face: 1.0, speed: u + rng.uniform(0.1, 30)}
-        came = game[speed]
+    moved = compile(IN_GAME, "README.md", "exec")
+    u, CR = rng.uniform(-3, 3), rng.uniform(0, 1)
+    for place, speed in (("x", "vx"), ("y", "v")):
+        face, came = 1.0, u + rng.uniform(0.1, 30)
+        game = ball(CR=CR, g=0.0, paddle=1e3, old_paddle=1e3, paddle_top=-1e3, paddle_bottom=1e3)
+        game |= {place: face - rng.uniform(0.11, 1), speed: came}
+        behind = game | {place: face + 0.2, speed: u}
         for _ in range(600):
-            game |= {"old_paddle": game["paddle"], "old_lift": game["lift"]}
-            game[face] += u / 60
-            exec(moved, game)
-            assert game[place] <= game[face] - 0.1 + 1e-12
+            old_face, face = face, face + u / 60
+            if place == "x":
+                where: dict[str, Any] = {"old_paddle": old_face, "paddle": face}
+            else:
+                where = {"platforms": [(old_face, face, -1e3, 1e3)]}
+            for each in (game, behind):
+                each |= where
+                exec(moved, each)
+            assert game[place] <= face - 0.1 + 1e-12
+            assert behind[place] > face  # it does not jump
         assert game[speed] == pytest.approx(u - CR * (came - u))
-        assert code in IN_GAME
-        game |= {place: game[face] + 0.2, speed: u}  # behind it
-        game |= {"old_paddle": game["paddle"], "old_lift": game["lift"]}
-        exec(moved, game)
-        assert game[place] > game[face]  # it does not jump
 
 
 def test_the_figures_of_the_cure() -> None:

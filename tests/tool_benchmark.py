@@ -1,6 +1,8 @@
-"""A tool, no test: what methods cost beside each other, and a move beside its frame: python tests/tool_benchmark.py
+"""A tool, no test: what methods cost beside each other, and a move beside its frame.
 
-Not a test, which must not depend on a machine's speed. Costs are the least of several runs.
+    python tests/tool_benchmark.py
+
+A test must not depend on a machine's speed. Costs are the least of several runs.
 """
 
 import io

@@ -22,9 +22,10 @@ sys.path.insert(0, str(HERE))
 
 from airtrack import (  # noqa: E402
     METHODS,
+    compared_by,
     make_parser,
-    measure,
     method_text,
+    print_table,
     track_text,
     wanted_by,
 )
@@ -64,7 +65,7 @@ def moving_picture(file: Path) -> None:
 def chart(words: list[str], file: Path) -> None:
     """Measure as the program's chart does, and draw the points on two logarithmic scales."""
     wanted = wanted_by(make_parser().parse_args(["chart", *words]), [])
-    scene = wanted.scene
+    scene = compared_by(wanted)
     figure = Figure(figsize=(8, 6), dpi=150, layout="constrained")
     heading = f"Example {wanted.number}: {track_text(scene)}"
     figure.suptitle(f"Speed against accuracy\n{textwrap.fill(heading, 110)}", fontsize=9)
@@ -73,21 +74,21 @@ def chart(words: list[str], file: Path) -> None:
         ylabel="time for a simulated second (\N{MICRO SIGN}s): better upwards")
     axes.invert_yaxis()
     axes.margins(x=0.08)  # room for the labels
-    column_m = 1 / scene.m_to_px
-    series_of = measure(scene)
-    least_m = min(point.error_m for series in series_of.values() for point in series if point.error_m)
-    for (letter, series), marker in zip(series_of.items(), "oxD+v", strict=True):
-        label = f"{letter}: {method_text(*METHODS[letter])}"
-        errors_m = [point.error_m for point in series]
-        if max(errors_m) == 0:  # 0 has no place on a logarithmic scale
-            label += " (no error: drawn at the left edge)"
-            errors_m = [least_m / 10] * len(series)
+    points = print_table(scene)
+    # An error of 0 has no place on a logarithmic scale. So it is drawn at the left edge.
+    left_m = max(1e-17, min(point.error_m for point in points["d"]) / 30)
+    for (letter, series), marker in zip(points.items(), "oxD+v", strict=True):
+        errors_m = [max(point.error_m, left_m) for point in series]
         costs_us = [point.cost_us for point in series]
+        label = f"{letter}: {method_text(*METHODS[letter])}"
         axes.plot(errors_m, costs_us, f"{marker}-", label=label)
-        for end in (0, -1):  # the lowest and the highest rate
-            axes.annotate(f" {series[end].fps} FPS", (errors_m[end], costs_us[end]), fontsize=7)
-    axes.axvline(column_m, color="black", linestyle="--", label="a column of the film")
-    figure.legend(loc="outside lower center", ncols=3)
+        if letter in "bd":  # the rates, once on either side
+            for point, error_m in zip(series, errors_m, strict=True):
+                axes.annotate(f"  {point.fps}", (error_m, point.cost_us), fontsize=7)
+    axes.text(left_m, min(point.cost_us for point in points["e"]) / 1.3, "e has no error",
+              fontsize=8, horizontalalignment="left")
+    axes.axvline(1 / scene.m_to_px, color="black", linestyle="--", label="a column of the film")
+    axes.legend(loc="lower center", bbox_to_anchor=(0.5, -0.28), ncols=3, fontsize=8)
     figure.savefig(file)
 
 
