@@ -18,8 +18,8 @@ For example: python airtrack.py 10 d CR=0.9
 In a film, * is the car and | is a wall. < or > is the car, too, when it is out
 of the picture. If the car bounces, 0 is where the frame would have ended
 without walls. A . is the start. o is the true car. If you change the car or the
-track of an example, + is the car of the example as it is. a to e are the cars
-of five methods.
+track of an example, but not its frames, + is the car of the example as it is.
+a to e are the cars of five methods.
 
 README.md says what this is good for. .github/lesson.md is a lesson for a class.
 """
@@ -694,8 +694,8 @@ def largest_error_m(track: Track, fps: int) -> float:
 def cost_us(track: Track, fps: int) -> float:
     """How long the steps of a simulated second take, in microseconds.
 
-    Other programs may slow this one, and nothing can speed it up. So the least of several runs is
-    nearest to the time that the steps themselves need.
+    Other programs may slow this one. So the least of several runs is nearest to the time that the
+    steps themselves need.
     """
     dt_s = 1 / fps
     costs_s = []
@@ -817,10 +817,10 @@ def print_answer(points: dict[str, list[Point]], column_m: float) -> None:
     if not answers:
         print("  none at these rates")
 
-def chart(scene: Scene, title: str) -> None:
-    """Measure, print the table, draw the picture and answer the question."""
+def chart(scene: Scene, number: int) -> None:
+    """Measure, print the table, draw the picture and answer the question. number is the example."""
     column_m = 1 / scene.m_to_px
-    say(f"Speed against accuracy. {title}")
+    say(f"Speed against accuracy. Scene {number}: {track_text(scene)}")
     say("Which method is the cheapest that stays within a column of the film? Each method runs ten "
         "times for 20 simulated seconds. Error: the largest distance from the true car. Cost: the "
         "time that a simulated second takes, in us (microseconds). Order: 1 if half the dt makes "
@@ -833,7 +833,7 @@ def chart(scene: Scene, title: str) -> None:
     say(f"{', '.join(legend)}. Error to the right, cost downwards: the best are in the upper left. "
         "Where letters meet there is a +.")
     print_answer(points, column_m)
-    say(f"Next: {PYTHON} airtrack.py stability")
+    say(f"Next: {PYTHON} airtrack.py stability {number}")
 
 # ==== 8. The map: where methods fail ============================================================
 # Which method fails at which frame rate, and how?
@@ -895,10 +895,10 @@ def cell(letters: list[str]) -> str:
         return worst.lower()
     return worst
 
-def stability(scene: Scene, title: str) -> None:
+def stability(scene: Scene, number: int) -> None:
     """Print the map: a row for each method, a column for each rate, a letter for ten runs."""
     column_m = 1 / scene.m_to_px
-    say(f"Stability. {title}")
+    say(f"Stability. Scene {number}: {track_text(scene)}")
     say("Which methods are right, and from which frame rate on? Each runs ten times for 20 "
         "simulated seconds, and is looked at every 0.1 s or, if it is longer, every frame. A small "
         "letter: only some of the ten runs are so bad. 100 % of the energy is v^2/2 at the start + "
@@ -1040,7 +1040,7 @@ def is_beyond_a_wall(car: Car) -> bool:
 
 def energy_text(energy: float) -> str:
     """An energy with up to four significant digits."""
-    if energy != 0 and abs(energy) < 0.001:
+    if 0 < energy < 0.001:
         return "<0.001"
     return f"{energy:.4g}"
 
@@ -1088,8 +1088,8 @@ def tell_cars(cars: dict[str, Car]) -> None:
     for mark in marks:
         words = [hops_text(cars[mark]), end_text(cars[mark])]
         print(mark, "; ".join([text for text in words if text]))
-    print("At rest: for 0.3 s and ten frames it had no more energy than it needs to rise")
-    print("3 mm, and the energy of the speed that it gains in one frame.")
+    print("At rest: for 0.3 s and ten frames it had too little energy to rise above its")
+    print("floor by 5 cm, or by more than 3 mm + |a| dt^2/2. (If a is 0: it stood still.)")
 
 def title_text(wanted: Wanted) -> str:
     """Which scene the film is of, and what the user changed."""
@@ -1231,7 +1231,8 @@ OF_THE_FRAMES = ["fps_target", "use_observed_dt", "jitter"]
 
 # What people type because other programs have it, and what it is called here:
 OTHER_NAMES = {"fps": "fps_target", "dt": "fps_target", "g": "a_mps2", "gravity": "a_mps2",
-               "a": "a_mps2", "x": "x_m", "position": "x_m", "h": "x_m", "v": "v_mps",
+               "a": "a_mps2", "acceleration": "a_mps2", "left": "left_edge_m",
+               "right": "right_edge_m", "x": "x_m", "position": "x_m", "h": "x_m", "v": "v_mps",
                "speed": "v_mps", "velocity": "v_mps", "e": "CR", "restitution": "CR",
                "zoom": "m_to_px", "map": "stability", "details": "d", "help": "-h",
                "fast": "--fast", "frames": "--frames"}
@@ -1242,7 +1243,7 @@ def hint(word: str) -> str:
     hints = OTHER_NAMES | {each.lower(): each for each in [*SETTINGS, *COMMANDS]}
     hints |= {each: f"motion={each}" for each in MOTIONS}
     hints |= {each: f"correction={each}" for each in ALL_CORRECTIONS}
-    # With a lower cutoff some hints are wrong: a_mps2 for grafik, as that is like gravity.
+    # With a lower cutoff more hints are wrong: a_mps2 for grafik, as that is like gravity.
     near = difflib.get_close_matches(word.lower().lstrip("-"), hints, n=1, cutoff=0.7)
     if not near:
         return "-h lists all that there are"
@@ -1300,7 +1301,7 @@ def make_parser() -> argparse.ArgumentParser:
     parser.add_argument("words", nargs="*", metavar="WORD", help="see above")
     parser.add_argument("-d", "-D", dest="details", action="store_true", help="as the word d")
     parser.add_argument("--fast", action="store_true", help="no waiting, keys, colours, last text")
-    parser.add_argument("--frames", type=int, metavar="N", default=FRAMES,
+    parser.add_argument("--frames", metavar="N", default=str(FRAMES),
                         help=f"stop after N frames; without it, after {FRAMES}")
     return parser
 
@@ -1331,7 +1332,7 @@ def wanted_by(options: argparse.Namespace, unknown_options: list[str]) -> Wanted
     if len(commands) > 1 or len(numbers) > 1:
         found = [str(each) for each in [*commands, *numbers]]
         raise ValueError(f"one command and one EXAMPLE at a time, not {', '.join(found)}")
-    if options.frames < 1:
+    if not options.frames.isdecimal() or int(options.frames) == 0:
         raise ValueError(f"--frames N must be a whole number from 1 up, not {options.frames}")
     command, number = None, 1
     if commands:
@@ -1340,7 +1341,7 @@ def wanted_by(options: argparse.Namespace, unknown_options: list[str]) -> Wanted
         number = numbers[0]
     changes = {name: value_of(name, text) for name, text in typed.items()}
     return Wanted(command, number, typed, changes, has_details=options.details or has_d,
-                  is_fast=options.fast, max_frames=options.frames)
+                  is_fast=options.fast, max_frames=int(options.frames))
 
 def shown_by(wanted: Wanted) -> Shown:
     """What the film shows. Raises ValueError for settings that exclude each other."""
@@ -1382,9 +1383,7 @@ def main(argv: list[str] | None = None) -> int:
         if wanted.command is None:
             show = partial(film, wanted, shown_by(wanted))
         else:
-            scene = compared_by(wanted)
-            title = f"Scene {wanted.number}: {track_text(scene)}"
-            show = partial(COMMANDS[wanted.command], scene, title)
+            show = partial(COMMANDS[wanted.command], compared_by(wanted), wanted.number)
     except ValueError as fault:
         parser.error(str(fault))  # this prints the text and ends the program with status 2
     try:

@@ -9,14 +9,10 @@ import signal
 import subprocess
 import sys
 import time
-from dataclasses import replace
-from itertools import pairwise
 from pathlib import Path
 from typing import Any, NamedTuple
 
-import pytest
-
-from airtrack import Car, Scene, main, planned_length, step
+from airtrack import Car, Scene, main, planned_length
 from examples import EXAMPLES, OWN_SCENE
 
 if sys.platform != "win32":
@@ -26,8 +22,6 @@ if sys.platform != "win32":
 
 HERE = Path(__file__).resolve().parent.parent
 COMMAND = [sys.executable, str(HERE / "airtrack.py")]
-LISTING = (HERE / "airtrack.py").read_text(encoding="utf-8")
-
 
 # Nothing else of the environment in which the tests are started reaches a run: no display, no
 # colours turned off, no width. Where there is always a display, dummy keeps the window shut.
@@ -55,11 +49,6 @@ def shown(words: str) -> Film:
     return Film(" ".join(header.split()), lines, ending, table.splitlines())
 
 
-def film(_: pytest.CaptureFixture[str], *words: str) -> Film:
-    """The same for words one by one."""
-    return shown(" ".join(words))
-
-
 def details(line: str) -> tuple[float, float]:
     """x and v in the details behind a line."""
     x_text, v_text = re.findall(r"[xv] = +(-?[0-9.]+)", line)
@@ -82,49 +71,6 @@ def filmed(number: int, frames: int, **changes: Any) -> Car:
         else:
             car.move(1 / scene.fps_target)
     return car
-
-
-State = tuple[float, float, float | None]  # x_m, v_mps (or the true x_m) and mark_m
-
-
-def changed(number: int, changes: dict[str, Any]) -> Scene:
-    """The scene of an example with changes."""
-    return Scene(**EXAMPLES[number].settings | changes)
-
-
-def states(number: int, frames: int, **changes: object) -> list[State]:
-    """x, v and mark_m after each frame of an example with changes, each as long as planned."""
-    return states_of(changed(number, changes), frames)
-
-
-def lengths_s(scene: Scene, frames: int) -> list[float]:
-    """The time steps of a --fast film."""
-    if scene.use_observed_dt:
-        return [planned_length(scene, frame) for frame in range(1, frames + 1)]
-    return [1 / scene.fps_target] * frames
-
-
-def states_of(scene: Scene, frames: int) -> list[State]:
-    """x, v and mark_m after each frame of a scene, each as long as planned."""
-    x_m, v_mps, found = scene.x_m, scene.v_mps, []
-    for dt_s in lengths_s(scene, frames):
-        x_m, v_mps, mark_m = step(scene, x_m, v_mps, dt_s)
-        found.append((x_m, v_mps, mark_m))
-    return found
-
-
-def collisions(found: list[State]) -> list[int]:
-    """The numbers of the frames in which a collision was found."""
-    return [frame for frame, (_, _, mark_m) in enumerate(found, 1) if mark_m is not None]
-
-
-def hops(scene: Scene, number: int) -> list[int]:
-    """The first hops of a film in lines, from each in which a collision is found to the next."""
-    frames, found = 100, list[int]()
-    while len(found) <= number:
-        frames *= 2
-        found = collisions(states_of(replace(scene, use_observed_dt=False), frames))
-    return [after - before for before, after in pairwise(found[:number + 1])]
 
 
 PATIENCE_S = 30  # for what must come: only a test that fails waits so long
@@ -212,8 +158,3 @@ class Terminal(contextlib.AbstractContextManager["Terminal"]):
         assert self.mode() == self.found, self.all[-1000:]
         assert "Traceback" not in self.all, self.all[-1000:]
         assert self.program.returncode in statuses, self.all[-1000:]
-
-    def ends_at_x(self) -> None:
-        self.press("x")
-        self.until(" s: x was pressed.")
-        self.ends(0)

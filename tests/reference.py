@@ -1,16 +1,27 @@
-"""The car's motion in 60-digit decimals, written independently of the program.
+"""The car's motion in 60-digit decimals, written independently, and rational numbers.
 
-Each flight ends at the textbook root of g t^2/2 + u t - d = 0, as its cancellation does no harm in
-60 digits. The bounces are followed one by one, until a hop lasts less than 1e-30 s.
+In decimals each flight ends at the textbook root of g t^2/2 + u t - d = 0, as its cancellation does
+no harm in 60 digits. The bounces are followed one by one, until a hop lasts less than 1e-30 s.
 """
 
 from decimal import Context, Decimal, localcontext
+from fractions import Fraction
+from typing import Any
+
+from hypothesis import strategies as st
 
 from airtrack import Track
 
+Rational = Any  # a Fraction: the program takes it for a float, but mypy does not
 PRECISE = Context(prec=60)
 TOO_SHORT_S = Decimal("1e-30")
 NEVER_S = Decimal("Infinity")
+
+
+def rationals(least: float, largest: float) -> st.SearchStrategy[Rational]:
+    """Thousandths from least to largest."""
+    thousandths = st.integers(round(1000 * least), round(1000 * largest))
+    return thousandths.map(lambda number: Fraction(number, 1000))
 
 
 def states(track: Track, times_s: list[Decimal]) -> list[tuple[Decimal, Decimal]]:
@@ -22,14 +33,13 @@ def states(track: Track, times_s: list[Decimal]) -> list[tuple[Decimal, Decimal]
         now_s = Decimal(0)
         for moment_s in times_s:
             while True:
-                flights_s = {side: time_to(walls_m[side], side, x_m, v_mps, a_mps2)
-                             for side in walls_m}
-                side = min(flights_s, key=flights_s.__getitem__)
-                if now_s + flights_s[side] > moment_s:
+                flight_s, side = min((time_to(walls_m[side], side, x_m, v_mps, a_mps2), side)
+                                     for side in walls_m)
+                if now_s + flight_s > moment_s:
                     break
-                now_s += flights_s[side]
+                now_s += flight_s
                 x_m = walls_m[side]
-                v_mps = -Decimal(track.CR) * (v_mps + a_mps2 * flights_s[side])
+                v_mps = -Decimal(track.CR) * (v_mps + a_mps2 * flight_s)
                 if side * a_mps2 > 0 and 2 * abs(v_mps) < TOO_SHORT_S * abs(a_mps2):
                     v_mps = a_mps2 = Decimal(0)  # at rest on the wall, for good
             left_s = moment_s - now_s

@@ -3,14 +3,12 @@
 import importlib.util
 import io
 import re
-import signal
 import subprocess
 import sys
 from contextlib import redirect_stderr, redirect_stdout
 from dataclasses import fields
 from itertools import permutations
 from pathlib import Path
-from typing import Any
 
 import pytest
 from hypothesis import given
@@ -18,7 +16,6 @@ from hypothesis import strategies as st
 
 import airtrack
 from airtrack import ALL_CORRECTIONS, COMMANDS, MOTIONS, Scene, main
-from clock import Play
 from examples import EXAMPLES
 from films import COMMAND, HERE, environment, shown
 
@@ -38,30 +35,26 @@ def ended(words: list[str]) -> tuple[object, str]:
 # What is refused.
 
 @pytest.mark.parametrize(("words", "parts"), [  # what is wrong, and what is allowed
-    ("CR=7", "CR 7 0 1"), ("CR=-0.1", "CR -0.1"), ("x_m=nan", "x_m nan -1000 1000"),
-    ("v_mps=-1001", "v_mps -1001"), ("a_mps2=1001", "a_mps2 1001"), ("CR=inf", "CR inf"),
+    ("CR=7", "CR 7 0 1"), ("x_m=nan", "x_m nan -1000 1000"), ("v_mps=-1001", "v_mps -1001"),
     ("fps_target=0.09", "fps_target 0.09 0.1 1000"), ("jitter=0.91", "jitter 0.91 0 0.9"),
     ("m_to_px=0", "m_to_px 0.001 1000"), ("width_px=9", "width_px 9 10 1000"),
     ("width_px=99.5", "width_px 99.5 whole"), ("auto_off=yes", "auto_off yes True False"),
     ("motion=euler", "motion euler forward backward exact"),
     ("correction=bounce", "correction bounce none surface rebound conserve rewind replay"),
     ("CR=0,9", "CR 0,9 point"), ("CR=", "CR=VALUE 0 1"), ("CR 0.7", "CR=VALUE 0 1"),
-    ("CR:0.7", "CR=VALUE 0 1"), ("CR = 0.7", "CR=VALUE 0 1"),
-    ("10 left_edge_m=3", "right_edge_m 2.2 3.01"), ("10 motion=forward", "rewind motion=exact"),
+    ("CR:0.7", "CR=VALUE 0 1"), ("10 left_edge_m=3", "right_edge_m 2.2 3.01"),
+    ("right_edge_m=0.255", "right_edge_m 0.26"), ("10 motion=forward", "rewind motion=exact"),
     ("12 x_m=0.2", "x_m 0.2 rewind 0.25 2.2"), ("3 d 4", "3 4 one"), ("--frames x", "--frames x"),
     ("chart stability", "chart stability one"), ("--frames 0", "--frames 0 1"),
     ("chart d", "chart d"), ("chart --fast", "chart --fast"),
     ("stability 3 --frames 9", "stability --frames"),
     ("stability 5 motion=exact", "stability motion x_m CR m_to_px"),
-    ("chart fps_target=9", "chart fps_target x_m CR m_to_px"),
-    # the nearest right name
+    # the nearest right name, if there is one
     ("dt=0.1", "dt=0.1 fps_target=VALUE"), ("--fps=9", "--fps=9 fps_target=VALUE"),
-    ("g=9.8", "g=9.8 a_mps2=VALUE m/s^2"), ("GRAVITY=1", "a_mps2=VALUE"), ("e=1", "CR=VALUE"),
-    ("SPEED=3", "v_mps=VALUE"), ("x=1", "x_m=VALUE"), ("cr=1", "CR=VALUE"), ("h=2", "x_m=VALUE"),
-    ("v=2", "v_mps=VALUE"), ("zoom=9", "m_to_px=VALUE"), ("widht_px=9", "width_px=VALUE"),
-    ("Stabilty", "Stabilty stability"), ("conserv", "correction=conserve"),
-    ("Exact", "motion=exact"), ("--fats", "--fast"), ("frames=9", "--frames"), ("qqqq", "qqqq -h"),
-    ("grafik=1", "grafik -h"), ("friction=0.1", "friction -h")])
+    ("g=9.8", "a_mps2=VALUE m/s^2"), ("e=1", "CR=VALUE"), ("SPEED=3", "v_mps=VALUE"),
+    ("zoom=9", "m_to_px=VALUE"), ("widht_px=9", "width_px=VALUE"), ("Stabilty", "stability"),
+    ("conserv", "correction=conserve"), ("Exact", "motion=exact"), ("--fats", "--fast"),
+    ("qqqq", "qqqq -h"), ("grafik=1", "grafik -h"), ("friction=0.1", "friction -h")])
 def test_wrong_input_ends_with_2_and_one_sentence_that_helps(words: str, parts: str) -> None:
     status, err = ended(words.split())
     assert status == 2
@@ -78,9 +71,9 @@ SETTING = st.tuples(st.sampled_from([*NAMES, "fps"]), st.sampled_from("=:,"), st
 @given(st.lists(WORD | st.text() | SETTING.map("".join) | st.from_regex("-{0,2}[a-z0-9=.]*")))
 def test_no_words_end_in_a_traceback(words: list[str]) -> None:
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(airtrack, "film", lambda wanted: None)
+        patch.setattr(airtrack, "film", lambda *_: None)
         for command in COMMANDS:
-            patch.setitem(COMMANDS, command, lambda scene, title: None)
+            patch.setitem(COMMANDS, command, lambda *_: None)
         status, err = ended(words)
     assert status in (0, 2)
     assert ("\nairtrack.py: error: " in err) is (status == 2)
@@ -180,12 +173,3 @@ def test_what_runs_the_program_lives_on(host: list[str]) -> None:
     _, _, after_the_film = done.stdout.partition("Stopped after 3 frames")
     assert "function calls" in after_the_film
     assert done.returncode == 0
-
-
-def test_after_a_film_each_signal_does_what_it_did_before(play: Play) -> None:
-    def handlers() -> list[Any]:
-        return [signal.getsignal(number) for number in signal.valid_signals()]
-
-    before = handlers()
-    play("10 --frames=3")
-    assert handlers() == before

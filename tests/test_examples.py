@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from airtrack import METHODS, Car, rest_began_s
+from airtrack import Car, rest_began_s
 from films import filmed, shown
 
 TRUTH = {"motion": "exact", "correction": "replay"}
@@ -93,6 +93,7 @@ def test_0_is_at_the_left_wall_after_45_s_and_flies_until_44_s() -> None:
     assert frames[-1].x_m == pytest.approx(0.5, abs=1e-3)
     flies_s = [frame.t_s for frame in frames if frame.mark_m is None]
     assert flies_s[-1] == pytest.approx(44, abs=0.5)
+    assert shown("0 --frames=1").lines[0].count("|") == 2  # both walls are in the picture
 
 
 def test_2_goes_8_cm_into_the_walls_and_comes_out_each_time() -> None:
@@ -129,8 +130,11 @@ def test_14_is_thrown_out_to_1_2_km_in_a_minute_and_15_creeps_by_10_cm_a_frame()
 
 
 def test_of_five_methods_two_are_never_seen() -> None:
-    assert len(METHODS) == 5
-    assert set("".join(shown("21 --frames=200").lines)) == set(" |*.0abc")
+    film = shown("21 --frames=200")
+    assert set("".join(film.lines)) == set(" |*.0abc")
+    for letter, off_m in (("a", 0.9), ("b", 1.8), ("c", 0.9)):
+        row, = [line for line in film.table if line.startswith(letter) and " m " in line]
+        assert float(row.split()[4]) == pytest.approx(off_m, rel=0.05)
 
 
 def test_22_hops_for_ever_in_16_lines_80_mm_high_from_frame_327_on() -> None:
