@@ -847,7 +847,7 @@ VERDICTS = {  # from the worst to the best. W is not for one run, but for ten: s
     "W": "as G in some runs, as L in others",
     "G": "over a column off and, on average in the last 5 s, over 1 % too much energy",
     "L": "over a column off and, on average in the last 5 s, over 1 % too little energy",
-    "P": "over a column off, but in the last 5 s with the right energy",
+    "P": "over a column off, but in the last 5 s its energy is right, as at rest",
     "-": "within a column of the film",
 }
 FROM_WORST_TO_BEST = list(VERDICTS)
@@ -1146,8 +1146,8 @@ def say_after(wanted: Wanted, shown: Shown) -> None:
     print()
     say(shown.texts.seen)
     if shown.texts in (CHANGED, CHANGED_FRAMES, OWN_SCENE):
-        say("The map tells which methods stay within a column of the film. There a column is "
-            f"{1 / shown.scene.m_to_px:.2g} m wide:")
+        say("The map calls a method right if its car is never further off than a column of the "
+            f"film, which is {1 / shown.scene.m_to_px:.2g} m wide there:")
         words = [f"{name}={text}" for name, text in wanted.typed.items() if name in FOR_COMMANDS]
         print(PYTHON, "airtrack.py stability", wanted.number, *words)
     following = wanted.number + 1 if wanted.number + 1 in EXAMPLES else "chart"

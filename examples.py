@@ -188,10 +188,10 @@ EXAMPLES = {
         "The * stays on the o until the first bounce, in frame 14. After that it is wrong, by up "
         "to 1.8 m within 20 s. The motion is exact, so the error comes from the rebound. The "
         "acceleration points to the left wall. There the rebound lifts the car against it and "
-        "does not slow the car, so the car gains energy. At the right wall it loses some of it: "
-        "the table has its least and its most energy. With correction=conserve the energy is "
-        "right, and the car comes back to the start mark each time, but each bounce comes up to a "
-        "frame late. With correction=rewind the * stays on the o."),
+        "does not slow the car, so the car gains energy. At the right wall it loses some of it. "
+        "The table tells the least and the most energy of the *. With correction=conserve the "
+        "energy is right, and the car comes back to the start mark each time, but each bounce "
+        "comes up to a frame late. With correction=rewind the * stays on the o."),
     18: Example("The exact solution at 4 FPS", {
         "x_m": 0.65, "v_mps": 5.0, "a_mps2": -8.0, "CR": 1.0, "motion": "exact",
         "correction": "rewind", "fps_target": 4.0, "show_exact_mark": True},
@@ -256,9 +256,9 @@ EXAMPLES = {
 # These stand for a changed example and for a scene of one's own. Nobody knows what is to be seen
 # there, so the text after the film says what to try.
 TRY = ("The table tells how far the * was at most from its true car, and its energy beside that of "
-       "the o. If they differ too much for you, try motion=exact and, at the same time, "
-       "correction=rewind, then replay. If only the moments of the bounces may be wrong, "
-       "correction=conserve is enough.")
+       "the o. If they differ too much for you, add motion=exact correction=rewind or, if that is "
+       "not enough, motion=exact correction=replay. If only the moments of the bounces may be "
+       "wrong, motion=exact correction=conserve is enough.")
 CHANGED = Example("A changed example", {},
     "An o is the true car of the changed scene. A + is the car of the example as it is. If you do "
     "not see them, they are under the *. (< and > mean: the * is out of the picture.) What does "

@@ -16,6 +16,7 @@ Rational = Any  # a Fraction: the program takes it for a float, but mypy does no
 PRECISE = Context(prec=60)
 TOO_SHORT_S = Decimal("1e-30")
 NEVER_S = Decimal("Infinity")
+GRAZE_M = Decimal("5e-11")  # a turn less than this beyond a wall is a miss, as in the program
 
 
 def rationals(least: float, largest: float) -> st.SearchStrategy[Rational]:
@@ -56,6 +57,6 @@ def time_to(wall_m: Decimal, side: int, x_m: Decimal, v_mps: Decimal, a_mps2: De
     if g == 0:
         return d / u if u > 0 else NEVER_S
     discriminant = u * u + 2 * g * d
-    if g < 0 and (u <= 0 or discriminant < Decimal("1e-40")):
-        return NEVER_S  # it moves away, or turns before the wall or on it
+    if g < 0 and (u <= 0 or discriminant < -2 * g * GRAZE_M):
+        return NEVER_S  # it moves away, or turns before it is there
     return (discriminant.sqrt() - u) / g

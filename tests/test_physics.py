@@ -104,6 +104,7 @@ def test_in_any_scene_the_three_find_numbers_and_conserve_and_replay_stay_on_the
     track = Track(motion=motion, correction=correction, a_mps2=a_mps2, CR=CR, left_edge_m=0.0,
                   right_edge_m=length_m, x_m=0.0)
     off_by = 1e-12 * (fastest_mps + abs(a_mps2) * dt_s)**2
+    off_by += 1e-10 * abs(a_mps2)  # replay takes a hop under 5e-11 m for rest
     x_m = part * length_m
     for _ in range(5):
         free_m = x_m + (v_mps + a_mps2 * dt_s / 2) * dt_s
