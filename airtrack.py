@@ -1117,7 +1117,8 @@ def scene_text(scene: Scene) -> str:
 def film(wanted: Wanted, shown: Shown) -> None:
     """Say what to look for, leave time to guess, show the film, and say what was to be seen."""
     scene = shown.scene
-    has_details = wanted.has_details or shown.texts.has_details
+    example = EXAMPLES.get(wanted.number, OWN_SCENE)
+    has_details = wanted.has_details or example.has_details
     say(title_text(wanted))
     say(scene_text(scene))
     view = fitted(scene, has_details)
@@ -1264,12 +1265,15 @@ def name_and_text(word: str) -> tuple[str, str]:
 
 def value_of(name: str, text: str) -> Any:
     """The value of a setting, from what a user typed after NAME=. Raises ValueError."""
-    for choice in SETTINGS[name].choices:
-        if text.lower() == str(choice).lower():
-            return choice
     fault = f"{name} must be {allowed_text(name)}, not {text}"
+    choices = SETTINGS[name].choices
+    if choices:
+        for choice in choices:
+            if text.lower() == str(choice).lower():
+                return choice
+        raise ValueError(fault)
     if "," in text:
-        fault += ": write a decimal point, not a comma"
+        raise ValueError(f"{fault}: write a decimal point, not a comma")
     try:
         value = int(text) if name == "width_px" else float(text)
     except ValueError:

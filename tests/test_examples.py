@@ -93,7 +93,9 @@ def test_0_is_at_the_left_wall_after_45_s_and_flies_until_44_s() -> None:
     assert frames[-1].x_m == pytest.approx(0.5, abs=1e-3)
     flies_s = [frame.t_s for frame in frames if frame.mark_m is None]
     assert flies_s[-1] == pytest.approx(44, abs=0.5)
-    assert shown("0 --frames=1").lines[0].count("|") == 2  # both walls are in the picture
+    line, = shown("0 --frames=1").lines
+    assert line.count("|") == 2  # both walls are in the picture
+    assert "v = 16.97" in line  # 17 - 2 * 0.015, and details without d
 
 
 def test_2_goes_8_cm_into_the_walls_and_comes_out_each_time() -> None:
