@@ -23,7 +23,7 @@ def test_each_mark_stands_in_its_column_and_an_arrow_where_the_car_is_out_of_the
         left_m: float, car_m: float, are_shown: bool, line: str) -> None:
     scene = Scene(x_m=0.94, left_edge_m=left_m, right_edge_m=2.0, m_to_px=10, width_px=len(line),
                   show_start_mark=are_shown, show_collision_mark=are_shown)
-    places_m = {"a": 1.06, "o": 0.4, "+": 0.6, "*": car_m}
+    places_m = {"a": 1.06, "b": -9.0, "c": 9.0, "o": 0.4, "+": 0.6, "*": car_m}
     assert render_track(scene, places_m, 1.5) == line
 
 

@@ -1,8 +1,4 @@
-"""The keys of a real terminal (a pseudo-terminal), its signals, and how it is left.
-
-What a key does to a film is tested on a set clock, in test_run.py. Here a test waits for what must
-come, however slow the machine is.
-"""
+"""A real terminal (a pseudo-terminal): its keys, its signals, its picture, and how it is left."""
 
 import re
 import shlex
@@ -10,7 +6,6 @@ import shutil
 import subprocess
 import sys
 import time
-from typing import Any
 
 import pytest
 
@@ -19,16 +14,16 @@ from films import HERE, PATIENCE_S, Terminal, environment, quick
 if sys.platform == "win32":
     pytest.skip("needs a POSIX pseudo-terminal", allow_module_level=True)
 
-FILM = [*quick(), "0"]  # it does not end by itself
+FILM = [*quick(), "0", "d"]  # it does not end by itself
 FRAME = "FPS = "  # stands in each of its lines, and nowhere else
-HELD = [*quick(pause_s=1e6), "0"]  # the text before this one stands until a key is pressed
+HELD = [*quick(pause_s=1e6), "0", "d"]  # the text before this one stands until a key is pressed
 
 
-def falls_silent(terminal: Terminal) -> None:
-    """Wait until no frames come any more."""
+def until_it_is_paused(terminal: Terminal) -> None:
+    """Wait until no frames come any more, and a line that is not complete says why."""
     deadline_s = time.monotonic() + PATIENCE_S
-    while terminal.read(0.5):
-        assert time.monotonic() < deadline_s, "it goes on"
+    while terminal.read(0.5) or terminal.all.endswith("\n"):
+        assert time.monotonic() < deadline_s, terminal.all[-1000:]
 
 
 @pytest.mark.parametrize(("key", "status"), [
@@ -52,7 +47,7 @@ def test_an_exception_in_a_film_is_shown_and_leaves_the_terminal_as_found() -> N
 def test_while_a_signal_ends_a_film_another_one_is_ignored() -> None:
     change = ("real = examples.termios.tcsetattr; examples.termios.tcsetattr = "
               "lambda *words: [os.kill(os.getpid(), 1), real(*words)]")  # 1 is SIGHUP
-    with Terminal(*quick(change), "0") as terminal:
+    with Terminal(*quick(change), "0", "d") as terminal:
         terminal.until(FRAME)
         terminal.press("SIGTERM")
         terminal.ends(143)
@@ -67,7 +62,7 @@ def test_a_film_whose_terminal_is_gone_ends_and_with_nohup_only_then(has_nohup: 
             terminal.press("SIGHUP")
             terminal.goes_on()
         terminal.press("p")
-        falls_silent(terminal)
+        until_it_is_paused(terminal)
         terminal.hang_up()
         terminal.program.wait(PATIENCE_S)
 
@@ -80,14 +75,9 @@ def test_after_main_every_signal_does_what_it_did_before() -> None:
         terminal.until("the same: True")
 
 
-def test_keys_count_from_the_start_even_before_python_runs_the_program() -> None:
+def test_keys_count_from_the_very_start_but_arrows_and_other_keys_do_nothing() -> None:
     with Terminal(*HELD) as terminal:
-        terminal.press("x")
-        terminal.until("Stopped after 0 frames")
-
-
-def test_arrows_mouse_reports_and_other_keys_do_nothing() -> None:
-    with Terminal(*FILM) as terminal:
+        terminal.press("\r")  # long before Python runs the program
         terminal.until(FRAME)
         for keys in ("\x1b", "\x1b[A", "\x1bOP", "\x1bp", "\x1b[<0;10;10Mpx", "q\t\r\n", "\u20ac"):
             terminal.press(keys)
@@ -108,24 +98,17 @@ def test_a_terminal_from_which_no_keys_can_come_is_left_alone(line: str) -> None
 
 
 def test_in_a_pipe_each_frame_comes_at_once_and_ctrl_c_ends_the_film() -> None:
+    words = ["0", "d", "fps_target=0.1", "--frames=3"]  # the second one would come after 10 s
     command = quick("import signal; signal.signal(2, signal.default_int_handler)")  # not ignored
-    with subprocess.Popen([*command, "0", "fps_target=0.1"], stdout=subprocess.PIPE, text=True,
-                          env=environment(), cwd=HERE) as program:
+    with subprocess.Popen([*command, *words], stdout=subprocess.PIPE, text=True, cwd=HERE,
+                          env=environment()) as program:
         assert program.stdout
-        assert any(FRAME in line for line in program.stdout)  # the next one would come after 10 s
+        assert any(FRAME in line for line in program.stdout)
         program.send_signal(2)
         assert "Stopped after 1 frames" in program.stdout.read()
 
 
-# In a shell.
-
 SHELLS = {"bash": ["bash", "--norc", "--noprofile", "-i"], "dash": ["dash", "-i"]}
-
-
-def start(shell: Terminal, command: list[str], seen: str) -> None:
-    shell.until("% ")
-    shell.press(shlex.join(command) + "\n")
-    shell.until(seen)
 
 
 @pytest.mark.parametrize(("name", "is_sent_back", "is_killed"), [
@@ -136,7 +119,9 @@ def test_ctrl_z_gives_the_terminal_back_and_bg_fg_and_kill_work(
     if shutil.which(name) is None:
         pytest.skip(f"{name} is not installed")
     with Terminal(*SHELLS[name], PS1="% ") as shell:
-        start(shell, FILM, FRAME)
+        shell.until("% ")
+        shell.press(shlex.join(FILM) + "\n")
+        shell.until(FRAME)
         shell.press("\x1a")
         shell.until("topped", "% ")  # or Stopped
         assert name == "bash" or shell.mode() == shell.found  # bash sets the terminal itself
@@ -158,7 +143,9 @@ def test_keys_that_were_typed_and_not_read_do_not_reach_the_shell() -> None:
               "[print('dra' + 'wing', flush=True), examples.select.select([0], [], []), "
               "real(*words)][2]")  # it draws until a key has come, after the last look at the keys
     with Terminal(*SHELLS["bash"], PS1="% ") as shell:
-        start(shell, [*quick(change), "0", "--frames=1"], "drawing")
+        shell.until("% ")
+        shell.press(shlex.join([*quick(change), "0", "--frames=1"]) + "\n")
+        shell.until("drawing")
         shell.press("x")
         shell.until("airtrack.py 1", "% ")
         shell.press('echo "st"atus $?\n')
@@ -166,23 +153,17 @@ def test_keys_that_were_typed_and_not_read_do_not_reach_the_shell() -> None:
         assert "xecho" not in shell.all
 
 
-# The picture.
-
-def first_frame(line: str, **changes: Any) -> str:
-    """The first frame of a film with every mark in a terminal, as a line of sh shows it."""
-    words = "0 x_m=17 v_mps=100 width_px=140 show_collision_mark=True --frames=1"
-    with Terminal("sh", "-c", line, "sh", *quick(), *words.split(), **changes) as terminal:
-        terminal.ends(0)
-        return next(line for line in terminal.all.splitlines() if FRAME in line).split("FPS")[0]
-
-
 def test_a_terminal_shows_the_marks_in_colours_unless_that_is_not_wanted() -> None:
-    coloured = first_frame('"$@"')
+    words = "0 d x_m=17 v_mps=100 width_px=140 show_collision_mark=True --frames=1"
+    frames = []
+    for line in ('"$@"', 'NO_COLOR=1 "$@"', 'TERM=dumb "$@"', '"$@" --fast', '"$@" | cat'):
+        with Terminal("sh", "-c", line, "sh", *quick(), *words.split()) as terminal:
+            terminal.ends(0)
+        shown, = [shown for shown in terminal.all.splitlines() if FRAME in shown]
+        frames.append(shown.partition(FRAME)[0])
+    coloured, *others = frames
     assert set(re.findall("\x1b\\[[0-9]+m(.)\x1b\\[0m", coloured)) == {"*", "+", "o", "0"}
-    plain = re.sub("\x1b\\[[0-9]+m(.)\x1b\\[0m", r"\1", coloured)
-    for line, changes in (('"$@"', {"NO_COLOR": "1"}), ('"$@"', {"TERM": "dumb"}),
-                          ('"$@" --fast', {}), ('"$@" | cat', {})):
-        assert first_frame(line, **changes) == plain
+    assert others == [re.sub("\x1b\\[[0-9]+m(.)\x1b\\[0m", r"\1", coloured)] * 4
 
 
 def test_in_a_narrow_terminal_no_line_wraps_and_one_says_that_the_picture_is_smaller() -> None:

@@ -6,13 +6,12 @@ import re
 import shutil
 import subprocess
 import sys
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 from PIL import ImageGrab
-from test_terminal import FRAME, HELD, falls_silent
+from test_terminal import FRAME, HELD, until_it_is_paused
 
 from clock import plain
 from films import COMMAND, PATIENCE_S, Terminal, environment, quick
@@ -24,9 +23,8 @@ HAS_PYGAME = importlib.util.find_spec("pygame") is not None
 @pytest.fixture(scope="module")
 def screen() -> Iterator[str]:
     """The name of an X server without a window manager."""
-    missing = [name for name in ("Xvfb", "xdotool") if shutil.which(name) is None]
-    if missing or not HAS_PYGAME:
-        pytest.skip(f"needs Xvfb, xdotool and pygame: not installed are {missing or 'pygame'}")
+    if not (HAS_PYGAME and shutil.which("Xvfb") and shutil.which("xdotool")):
+        pytest.skip("needs pygame, Xvfb and xdotool")
     read, write = os.pipe()
     # Without -noreset it starts anew when its last window closes, and loses what comes meanwhile.
     with subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", "800x600x24",
@@ -44,38 +42,35 @@ def xdotool(screen: str, words: str) -> str:
 
 def find_window(screen: str, film: Terminal) -> None:
     """Wait for the window of a film, and let it have the keys."""
+    film.until("Ctrl-C")  # this is said when caption and face are there
     search = f"search --sync --onlyvisible --pid {film.program.pid}"
     xdotool(screen, f"{search} windowfocus --sync")
 
 
-def wait_for(is_so: Callable[[], bool]) -> None:
-    deadline_s = time.monotonic() + PATIENCE_S
-    while not is_so():
-        assert time.monotonic() < deadline_s
-        time.sleep(0.05)
+def colours(screen: str) -> int:
+    """How many colours are on the screen: black, the window's white, and those of its text."""
+    return len(ImageGrab.grab(xdisplay=screen).getcolors(800 * 600) or [])
 
 
 def test_caption_and_face_say_what_the_keys_do_and_they_do_it(screen: str) -> None:
-    def has_text() -> bool:
-        """Whether the screen has more than the black around the window and its white."""
-        return len(ImageGrab.grab(xdisplay=screen).getcolors() or []) > 2
-
     with Terminal(*HELD, DISPLAY=screen, SDL_VIDEODRIVER=None) as film:
         find_window(screen, film)
         caption = xdotool(screen, "getwindowfocus getwindowname")
         assert re.search(r"(?i)\benter\b.*\bp\b.*\bs\b.*\bx\b", caption)
-        wait_for(has_text)
         xdotool(screen, "key Return")
         film.until(FRAME)
+        assert colours(screen) > 2
         for key in ("p", "ctrl+s"):
             xdotool(screen, f"key {key}")
-            falls_silent(film)
+            until_it_is_paused(film)
             xdotool(screen, f"key {key}")
             film.goes_on()
         xdotool(screen, "key s")
-        falls_silent(film)
+        until_it_is_paused(film)
         xdotool(screen, "getwindowfocus windowunmap --sync windowmap --sync windowfocus --sync")
-        wait_for(has_text)  # as after another window has covered it
+        xdotool(screen, "key p")
+        film.goes_on()
+        assert colours(screen) > 2  # as after another window has covered it
         xdotool(screen, "key Escape")
         film.ends(0)
         assert re.search(r"Stopped after .*\bEsc\b", film.all)
@@ -102,9 +97,10 @@ def test_closing_the_window_ends_the_film_and_after_a_film_the_window_is_shut(sc
               "airtrack.main = lambda: [real(), print('it is ov' + 'er', flush=True), input()][0]")
     with Terminal(*quick(change, pause_s=1e6), DISPLAY=screen, SDL_VIDEODRIVER=None) as film:
         find_window(screen, film)
+        assert xdotool(screen, "search --onlyvisible --class .")
         xdotool(screen, "key KP_Enter")
         film.until("Stopped after ", "window", "it is over")
-        wait_for(lambda: not xdotool(screen, "search --onlyvisible --name ."))
+        assert not xdotool(screen, "search --onlyvisible --class .")
         film.press("\n")
         film.ends(0)
 
@@ -120,7 +116,7 @@ def test_without_a_window_a_film_says_why_and_goes_on(
     broken = "import warnings; warnings.warn('old wood'); raise OSError('worm-eaten')"
     if reason == "worm-eaten":
         (tmp_path / "pygame.py").write_text(broken)
-    with Terminal(COMMAND[0], option, COMMAND[1], "0", DISPLAY=display, SDL_VIDEODRIVER=driver,
+    with Terminal(COMMAND[0], option, COMMAND[1], "0", "d", DISPLAY=display, SDL_VIDEODRIVER=driver,
                   PYTHONPATH=str(tmp_path)) as film:
         film.press("\r")
         film.until(FRAME)
