@@ -30,11 +30,10 @@ def test_each_mark_stands_in_its_column_and_an_arrow_where_the_car_is_out_of_the
 def test_where_marks_meet_the_one_that_is_first_in_this_order_is_seen() -> None:
     order = "*+oedcba|.0"
     for number, first in enumerate(order):
-        there = order[number:]
-        scene = Scene(x_m=1.0 if "." in there else 1.5, left_edge_m=1.0 if "|" in there else 0.5,
-                      m_to_px=10, show_start_mark=True, show_exact_mark=True, show_methods=True)
-        cars = cars_of(scene, replace(scene, CR=0.5))
-        places_m = {mark: 1.0 if mark in there else 1.5 for mark in cars}
+        place_m = dict.fromkeys(order, 1.5) | dict.fromkeys(order[number:], 1.0)
+        scene = Scene(x_m=place_m["."], left_edge_m=place_m["|"], m_to_px=10, show_start_mark=True,
+                      show_exact_mark=True, show_methods=True)
+        places_m = {mark: place_m[mark] for mark in cars_of(scene, replace(scene, CR=0.5))}
         assert render_track(scene, places_m, 1.0)[10] == first
 
 
@@ -51,8 +50,10 @@ def test_the_details_tell_the_place_of_the_car_and_how_far_to_the_right_of_the_o
 
 def wall_columns(lines: list[str]) -> list[int]:
     """The columns in which any of the lines shows a wall."""
-    pairs = [(column, mark) for line in lines for column, mark in enumerate(line)]
-    return sorted({column for column, mark in pairs if mark == "|"})
+    columns = set()
+    for line in lines:
+        columns |= {column for column, mark in enumerate(line) if mark == "|"}
+    return sorted(columns)
 
 
 @pytest.mark.parametrize(("words", "columns"), [
