@@ -373,6 +373,7 @@ else:
             take()
             yield
         finally:
+            set_handlers(dict.fromkeys(DISTURBING_SIGNALS, ignore))
             give_back(termios.TCSAFLUSH)  # TCSAFLUSH throws away the keys that wait
             set_handlers(before)
 

@@ -128,6 +128,7 @@ def test_before_a_film_enter_and_ctrl_c_begin_it_p_holds_the_text_s_shows_frame_
         keys: dict[float, str], frames_s: list[float], clock: Clock, play: Play) -> None:
     out = play("10 --frames 2", keys)
     assert clock.frames_s == pytest.approx(frames_s, abs=0.11)
+    assert clock.now_s == pytest.approx(max(*keys, *frames_s, 0), abs=0.2)
     assert bool(re.search(r"\n +\*\n +\* \*\n", out)) is (CTRL_C in keys.values())  # a diamond
     assert (EXAMPLES[10].seen in plain(out)) is bool(frames_s)  # else it is still to be guessed
 
