@@ -13,7 +13,6 @@ import examples
 
 Play = Callable[..., str]
 
-
 class Clock:
     """A clock that goes on only while somebody sleeps, or when a test says so."""
 
@@ -53,7 +52,6 @@ class Clock:
     def lengths_s(self) -> list[float]:
         """How long each frame lasted."""
         return [after_s - before_s for before_s, after_s in pairwise(self.frames_s)]
-
 
 def plain(text: str) -> str:
     """A text without its line breaks."""

@@ -15,7 +15,6 @@ settings.register_profile("airtrack", deadline=None, derandomize=True,  # a slow
                           suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("airtrack")
 
-
 @pytest.fixture(autouse=True)
 def clean_environment(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """No display, no width, no colours but those that a test sets. And Ctrl-C works."""
@@ -27,12 +26,10 @@ def clean_environment(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     yield
     signal.signal(signal.SIGINT, found)
 
-
 @pytest.fixture
 def clock(monkeypatch: pytest.MonkeyPatch) -> Clock:
     """A clock that the test sets."""
     return Clock(monkeypatch)
-
 
 @pytest.fixture
 def play(clock: Clock, capsys: pytest.CaptureFixture[str]) -> Play:

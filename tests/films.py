@@ -30,7 +30,6 @@ KEPT = ("PATH", "HOME", "USERPROFILE", "SYSTEMROOT", "TEMP", "TMP", "LD_LIBRARY_
 CLEAN = {name: os.environ[name] for name in KEPT if name in os.environ} | {
     "TERM": "xterm", "LANG": "C.UTF-8", "SDL_VIDEODRIVER": "dummy"}
 
-
 class Film(NamedTuple):
     """What a --fast run printed, taken apart."""
 
@@ -38,7 +37,6 @@ class Film(NamedTuple):
     lines: list[str]
     ending: str
     table: list[str]
-
 
 def shown(words: str) -> Film:
     """What a command line with --fast shows. Empty lines part header, film and table."""
@@ -48,18 +46,15 @@ def shown(words: str) -> Film:
     *lines, ending = frames.splitlines()
     return Film(" ".join(header.split()), lines, ending, table.splitlines())
 
-
 def details(line: str) -> tuple[float, float]:
     """x and v in the details behind a line."""
     x_text, v_text = re.findall(r"[xv] = +(-?[0-9.]+)", line)
     return float(x_text), float(v_text)
 
-
 def environment(**changes: str | None) -> dict[str, str]:
     """A clean environment with the changes (None: unset)."""
     wanted: dict[str, str | None] = {**CLEAN, **changes}
     return {name: value for name, value in wanted.items() if value is not None}
-
 
 def filmed(number: int, frames: int, **changes: Any) -> Car:
     """The car of an example, or of one's own scene, with changes, after a --fast film."""
@@ -72,9 +67,7 @@ def filmed(number: int, frames: int, **changes: Any) -> Car:
             car.move(1 / scene.fps_target)
     return car
 
-
 PATIENCE_S = 30  # for what must come: only a test that fails waits so long
-
 
 def quick(change: str = "pass", pause_s: float = 0.01) -> list[str]:
     """The program, with another pause to read each header in, and with a change to it."""
@@ -82,13 +75,11 @@ def quick(change: str = "pass", pause_s: float = 0.01) -> list[str]:
             f"examples.READING_WITHOUT_KEYS_S = {pause_s}; {change}; sys.exit(airtrack.main())")
     return [sys.executable, "-c", code]
 
-
 def sit_down() -> None:
     """At the terminal that is standard input. Ctrl-C works there, even if the tests ignore it."""
     fcntl.ioctl(0, termios.TIOCSCTTY, 0)
     for number in (signal.SIGINT, signal.SIGQUIT, signal.SIGHUP, signal.SIGTERM):
         signal.signal(number, signal.SIG_DFL)
-
 
 class Terminal(contextlib.AbstractContextManager["Terminal"]):
     """A program in a pseudo-terminal of its own, as somebody at the keyboard sees it."""

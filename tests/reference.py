@@ -18,12 +18,10 @@ TOO_SHORT_S = Decimal("1e-30")
 NEVER_S = Decimal("Infinity")
 GRAZE_M = Decimal("5e-11")  # a turn less than this beyond a wall is a miss, as in the program
 
-
 def rationals(least: float, largest: float) -> st.SearchStrategy[Rational]:
     """Thousandths from least to largest."""
     thousandths = st.integers(round(1000 * least), round(1000 * largest))
     return thousandths.map(lambda number: Fraction(number, 1000))
-
 
 def states(track: Track, times_s: list[Decimal]) -> list[tuple[Decimal, Decimal]]:
     """Position and velocity at each of the times, which ascend."""
@@ -49,7 +47,6 @@ def states(track: Track, times_s: list[Decimal]) -> list[tuple[Decimal, Decimal]
             now_s = moment_s
             found.append((x_m, v_mps))
     return found
-
 
 def time_to(wall_m: Decimal, side: int, x_m: Decimal, v_mps: Decimal, a_mps2: Decimal) -> Decimal:
     """How long the car flies until it goes outwards through the wall."""

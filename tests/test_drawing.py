@@ -26,7 +26,6 @@ def test_each_mark_stands_in_its_column_and_an_arrow_where_the_car_is_out_of_the
     places_m = {"a": 1.06, "b": -9.0, "c": 9.0, "o": 0.4, "+": 0.6, "*": car_m}
     assert render_track(scene, places_m, 1.5) == line
 
-
 def test_where_marks_meet_the_one_that_is_first_in_this_order_is_seen() -> None:
     order = "*+oedcba|.0"
     for number, first in enumerate(order):
@@ -35,7 +34,6 @@ def test_where_marks_meet_the_one_that_is_first_in_this_order_is_seen() -> None:
                       show_exact_mark=True, show_methods=True)
         places_m = {mark: place_m[mark] for mark in cars_of(scene, replace(scene, CR=0.5))}
         assert render_track(scene, places_m, 1.0)[10] == first
-
 
 def test_the_details_tell_the_place_of_the_car_and_how_far_to_the_right_of_the_o_it_is() -> None:
     for line in shown("17 d --frames=60").lines:  # 55 columns/m
@@ -47,14 +45,12 @@ def test_the_details_tell_the_place_of_the_car_and_how_far_to_the_right_of_the_o
         true_column = picture.index("o") if "o" in picture else car_column  # the * covers it
         assert (car_column - true_column) / 55 == pytest.approx(err_m, abs=1 / 55)
 
-
 def wall_columns(lines: list[str]) -> list[int]:
     """The columns in which any of the lines shows a wall."""
     columns = set()
     for line in lines:
         columns |= {column for column, mark in enumerate(line) if mark == "|"}
     return sorted(columns)
-
 
 @pytest.mark.parametrize(("words", "columns"), [
     ("1", [14, 121]), ("1 left_edge_m=0.3", [16, 121]),  # 55 columns/m show them
@@ -64,11 +60,9 @@ def test_the_zoom_shows_the_right_wall_unless_the_user_chose_it(
         words: str, columns: list[int]) -> None:
     assert wall_columns(shown(f"{words} --frames=30").lines) == columns
 
-
 class TextOfATerminal(io.StringIO):
     def isatty(self) -> bool:
         return True
-
 
 @pytest.mark.parametrize("columns", [60, 80, 100, 250])
 @pytest.mark.parametrize("words", ["1", "1 d", "0", "17 d", "99 right_edge_m=40 x_m=9 d"])

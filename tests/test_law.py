@@ -21,17 +21,14 @@ DT_S: Rational = Fraction(1, 10)
 G_MPS2: Rational = Fraction(4)
 G_DT_MPS = G_MPS2 * DT_S
 
-
 class Hop(NamedTuple):
     frames: int
     u_mps: Rational
     w_mps: Rational
 
-
 cars = st.fixed_dictionaries({
     "CR": rationals(0.05, 1), "height_m": rationals(0, 1), "speed_mps": rationals(0.1, 8),
     "up": st.sampled_from([-1, 1])})  # 1 if the floor is the left wall
-
 
 def hops(motion: str, correction: str, CR: Rational, height_m: Rational, speed_mps: Rational,
          up: int) -> list[Hop]:
@@ -55,7 +52,6 @@ def hops(motion: str, correction: str, CR: Rational, height_m: Rational, speed_m
         frames = 0
     return found
 
-
 @pytest.mark.parametrize(("motion", "correction", "least", "largest"), [
     ("forward", "surface", 1, 2), ("forward", "rebound", 1, 3),
     ("exact", "surface", 0, 1), ("exact", "rebound", 0, 2),
@@ -69,7 +65,6 @@ def test_next_w_is_CR_w_and_k_g_dt_and_k_is_within_the_table_s_bounds(
         assert after.w_mps == car["CR"] * hop.w_mps + k * G_DT_MPS
         assert after.frames == 1 or least < k <= largest
 
-
 @pytest.mark.parametrize(("motion", "more"), [("forward", 1), ("exact", 0), ("backward", -1)])
 @given(car=cars)
 @settings(max_examples=50)
@@ -78,7 +73,6 @@ def test_u_alone_foretells_the_frames_of_a_hop_from_the_surface(
     for hop in hops(motion, "surface", **car):
         next_whole_number = math.floor(2 * hop.u_mps / G_DT_MPS) + 1
         assert hop.frames == max(next_whole_number + more, 1)
-
 
 @given(car=cars)
 def test_exact_and_conserve_leave_CR_of_the_speed_in_each_hop(car: dict[str, Rational]) -> None:

@@ -17,11 +17,9 @@ from reference import states
 def true_track(**settings: Any) -> Track:
     return Track(motion="exact", correction="replay", **settings)
 
-
 both_signs = st.sampled_from([-1, 1])
 some_CR = st.sampled_from([0.0, 0.5, 0.8, 0.98, 1.0]) | st.floats(0, 0.95)
 frames_s = st.floats(1e-3, 0.5) | st.floats(0.5, 5)
-
 
 @st.composite
 def true_tracks(draw: st.DrawFn) -> Track:
@@ -33,7 +31,6 @@ def true_tracks(draw: st.DrawFn) -> Track:
     a_mps2 = draw(both_signs) * draw(st.just(0.0) | st.floats(1e-6, 2) | st.floats(2, 30))
     return true_track(left_edge_m=left_m, right_edge_m=left_m + length_m, CR=draw(some_CR),
                       x_m=left_m + part * length_m, v_mps=v_mps, a_mps2=a_mps2)
-
 
 @given(track=true_tracks(), lengths_s=st.lists(frames_s, min_size=1, max_size=10))
 @example(track=true_track(v_mps=5.0, a_mps2=-2.0, CR=1.0), lengths_s=[3600.0, 0.1])
@@ -52,7 +49,6 @@ def test_frames_of_any_length_and_one_as_long_as_all_agree_with_60_digits(
     at_once_m, _, _ = step(track, track.x_m, track.v_mps, float(now_s))
     assert at_once_m == pytest.approx(float(true_m), abs=1e-9)
 
-
 def test_two_thousand_million_hops_in_an_hour_take_no_time_and_are_counted() -> None:
     track = true_track(left_edge_m=0.0, right_edge_m=1.0, x_m=0.0, a_mps2=-1000.0, CR=1)
     rise_mps = 0.0009
@@ -60,7 +56,6 @@ def test_two_thousand_million_hops_in_an_hour_take_no_time_and_are_counted() -> 
     since_s = 3600 % (2 * Fraction(rise_mps) / 1000)
     height_m = Fraction(rise_mps) * since_s - 1000 * since_s**2 / 2
     assert x_m == pytest.approx(float(height_m), abs=1e-11 * rise_mps)  # 1e-11 s in an hour
-
 
 @given(drop_m=st.floats(0.1, 10), g_mps2=st.floats(1, 30), up=both_signs,
        CR=st.sampled_from([0.3, 0.5, 0.8, 0.98]))
@@ -75,7 +70,6 @@ def test_a_dropped_ball_moves_until_the_Zeno_point_and_lies_still_from_then_on(
     x_m, v_mps, _ = step(track, track.x_m, 0.0, zeno_s + 1e-9)
     assert (x_m, v_mps) == (0, 0)
 
-
 @given(drop_m=st.floats(0.1, 10), g_mps2=st.floats(1, 30), up=both_signs)
 def test_a_ball_dropped_from_the_ceiling_meets_the_floor_alone(
         drop_m: float, g_mps2: float, up: int) -> None:
@@ -86,7 +80,6 @@ def test_a_ball_dropped_from_the_ceiling_meets_the_floor_alone(
     for frame in range(1, 41):  # each ends in mid-air
         x_m, v_mps, mark_m = step(track, x_m, v_mps, fall_s / 2)
         assert (mark_m is not None) is (frame % 4 == 2)
-
 
 @pytest.mark.parametrize(("x_m", "begins_m"), [(0.2, 0.25), (3, 2.2), (1.5, 1.5)])
 def test_the_truth_of_any_method_moves_as_60_digits_from_the_wall_if_the_start_is_beyond(

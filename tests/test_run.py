@@ -14,12 +14,10 @@ FREE = "99 d v_mps=10 right_edge_m=990"  # it meets no wall, so that steps_s() c
 ENTER, CTRL_C, CTRL_S = "\r", "\x03", "\x13"
 NOW = {0: ENTER}  # begin at once: then frame 1 comes at 0.05 s, after a look at the keys
 
-
 def steps_s(out: str) -> list[float]:
     """How much time has passed for a car at 10 m/s from each frame to the next."""
     places_m = [float(x) for x in re.findall(r"x = +(-?[0-9.]+), v", out)]
     return [(after_m - before_m) / 10 for before_m, after_m in pairwise(places_m)]
-
 
 @pytest.mark.parametrize("fps", [10, 300])
 def test_a_long_film_keeps_its_rate_while_work_takes_time(
@@ -27,7 +25,6 @@ def test_a_long_film_keeps_its_rate_while_work_takes_time(
     clock.when_drawn = lambda frame: 0.3 / fps
     play(f"99 fps_target={fps} auto_off=False --frames 1001", NOW)
     assert clock.frames_s[-1] - clock.frames_s[0] == pytest.approx(1000 / fps, rel=0.001)
-
 
 @pytest.mark.parametrize(("late_s", "is_made_up"), [(0.14, True), (0.16, False), (9, False)])
 def test_a_short_delay_is_made_up_but_after_a_stall_the_film_does_not_race(
@@ -40,7 +37,6 @@ def test_a_short_delay_is_made_up_but_after_a_stall_the_film_does_not_race(
     # To make it up, two frames come at once. The clock does not even tick between them.
     assert min(clock.lengths_s()) == pytest.approx(0 if is_made_up else 0.1, abs=0.001)
 
-
 @pytest.mark.parametrize(("fps", "late_s", "counted_s"), [
     (30, 0.12, 0.12), (30, 0.19, 1 / 30), (2, 0.64, 0.64), (2, 0.66, 0.5), (2, 9, 0.5)])
 def test_an_observed_frame_counts_as_long_as_it_lasts_but_in_a_stall_the_car_does_not_leap(
@@ -51,7 +47,6 @@ def test_an_observed_frame_counts_as_long_as_it_lasts_but_in_a_stall_the_car_doe
     rates = re.findall(r"FPS = +([0-9]+)", out)  # what was observed, whatever counts
     assert [float(rate) for rate in rates[:6]] == pytest.approx([fps] * 5 + [1 / late_s], abs=0.6)
 
-
 def test_with_jitter_frames_are_irregular_and_a_fast_film_has_the_same(
         clock: Clock, play: Play) -> None:
     words = f"{FREE} fps_target=10 jitter=0.9 use_observed_dt=True --frames 500"
@@ -60,7 +55,6 @@ def test_with_jitter_frames_are_irregular_and_a_fast_film_has_the_same(
     assert found_s == pytest.approx(steps_s(play(f"{words} --fast")), abs=0.002)
     spread_s = [sorted(found_s)[place] for place in (0, 124, 249, 374, 498)]
     assert spread_s == pytest.approx([0.01, 0.055, 0.1, 0.145, 0.19], abs=0.003)
-
 
 @pytest.mark.parametrize("key", ["p", "P", CTRL_S])
 def test_p_pauses_and_then_the_film_goes_on_without_a_race_or_a_leap(
@@ -72,7 +66,6 @@ def test_p_pauses_and_then_the_film_goes_on_without_a_race_or_a_leap(
     assert steps_s(out) == pytest.approx([0.1] * 19, abs=0.002)
     assert set(re.findall(r"FPS = +([0-9]+)", out)) == {"10"}
 
-
 def test_s_shows_a_frame_for_each_time_that_it_is_pressed_and_p_goes_on(
         clock: Clock, play: Play) -> None:
     play("10", NOW | {1: "s", 10: "s", 20: "s" * 20, 21: "p", 22: "sp", 23: "p", 39: "x"})
@@ -80,14 +73,12 @@ def test_s_shows_a_frame_for_each_time_that_it_is_pressed_and_p_goes_on(
     counts = [sum(from_s <= at_s < to_s for at_s in clock.frames_s) for from_s, to_s in spans_s]
     assert counts == [10, 1, 1, 20, 10, 10, 0]
 
-
 @pytest.mark.parametrize(("fps", "drawing_s"), [(0.1, 0), (30, 0.1)])
 def test_x_is_answered_in_a_long_frame_and_where_every_frame_is_late(
         fps: float, drawing_s: float, clock: Clock, play: Play) -> None:
     clock.when_drawn = lambda frame: drawing_s
     play(f"99 fps_target={fps} auto_off=False --frames 100", NOW | {3: "x"})
     assert clock.now_s == pytest.approx(3, abs=0.2)
-
 
 @pytest.mark.parametrize(("words", "keys", "why", "following"), [
     ("10", {4: "x"}, "x", "11"), ("10 d", {4: "X"}, "x", "11"), ("10", {4: CTRL_C}, "Ctrl-C", "11"),
@@ -106,7 +97,6 @@ def test_the_end_says_when_and_why_it_came_what_was_to_be_seen_and_what_comes_ne
     assert example.seen in plain(out)
     assert out.endswith(f"airtrack.py {following}\n")
 
-
 def test_a_pause_is_told_in_a_line_that_vanishes_and_a_pipe_is_spared_it(
         play: Play, monkeypatch: pytest.MonkeyPatch) -> None:
     keys = {1: "p", 2: "p", 20: "p", 25: "x"}  # first before the film
@@ -117,7 +107,6 @@ def test_a_pause_is_told_in_a_line_that_vanishes_and_a_pipe_is_spared_it(
     assert blanks == " " * len(told)
     assert 10 < len(told) < 50  # from the last column on it would begin a new line
     assert re.search(r"\b100\b.*\b10\.0", of_the_film)  # which frame and which moment it is
-
 
 @pytest.mark.parametrize(("keys", "frames_s"), [
     ({1: "\r"}, [1, 1.1]), ({1: "\n"}, [1, 1.1]), ({1: CTRL_C}, [1, 1.1]),
@@ -131,7 +120,6 @@ def test_before_a_film_enter_and_ctrl_c_begin_it_p_holds_the_text_s_shows_frame_
     assert clock.now_s == pytest.approx(max(*keys, *frames_s, 0), abs=0.2)
     assert bool(re.search(r"\n +\*\n +\* \*\n", out)) is (CTRL_C in keys.values())  # a diamond
     assert (EXAMPLES[10].seen in plain(out)) is bool(frames_s)  # else it is still to be guessed
-
 
 @pytest.mark.parametrize(("has_terminal", "why_shut", "reading_s"), [
     (True, "it is bricked up", 10), (False, "", 10), (False, "it is bricked up", 3)])

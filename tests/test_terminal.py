@@ -18,13 +18,11 @@ FILM = [*quick(), "0", "d"]  # it does not end by itself
 FRAME = "FPS = "  # stands in each of its lines, and nowhere else
 HELD = [*quick(pause_s=1e6), "0", "d"]  # the text before this one stands until a key is pressed
 
-
 def until_it_is_paused(terminal: Terminal) -> None:
     """Wait until no frames come any more, and a line that is not complete says why."""
     deadline_s = time.monotonic() + PATIENCE_S
     while terminal.read(0.5) or terminal.all.endswith("\n"):
         assert time.monotonic() < deadline_s, terminal.all[-1000:]
-
 
 @pytest.mark.parametrize(("key", "status"), [
     ("x", 0), ("\x03", 0), ("SIGTERM", 143), ("SIGHUP", 129), ("SIGQUIT", 131)])
@@ -36,22 +34,20 @@ def test_a_key_or_a_signal_ends_a_film_and_leaves_the_terminal_as_found(
         terminal.ends(status)
         assert ("airtrack.py 1" in terminal.all) is (status == 0)  # what comes next
 
-
 def test_an_exception_in_a_film_is_shown_and_leaves_the_terminal_as_found() -> None:
     with Terminal(*quick("airtrack.render_track = lambda *_: 1/0")) as terminal:
         terminal.until("ZeroDivisionError")
         assert terminal.program.wait(PATIENCE_S) == 1
         assert terminal.mode() == terminal.found
 
-
-def test_while_a_signal_ends_a_film_another_one_is_ignored() -> None:
+@pytest.mark.parametrize(("key", "status"), [("SIGTERM", 143), ("x", 0)])
+def test_while_a_film_ends_a_signal_is_ignored(key: str, status: int) -> None:
     change = ("real = examples.termios.tcsetattr; examples.termios.tcsetattr = "
               "lambda *words: [os.kill(os.getpid(), 1), real(*words)]")  # 1 is SIGHUP
     with Terminal(*quick(change), "0", "d") as terminal:
         terminal.until(FRAME)
-        terminal.press("SIGTERM")
-        terminal.ends(143)
-
+        terminal.press(key)
+        terminal.ends(status)
 
 @pytest.mark.parametrize("has_nohup", [False, True])
 def test_a_film_whose_terminal_is_gone_ends_and_with_nohup_only_then(has_nohup: bool) -> None:
@@ -66,14 +62,12 @@ def test_a_film_whose_terminal_is_gone_ends_and_with_nohup_only_then(has_nohup: 
         terminal.hang_up()
         terminal.program.wait(PATIENCE_S)
 
-
 def test_after_main_every_signal_does_what_it_did_before() -> None:
     change = ("import signal; handlers = lambda: [*map(signal.getsignal, range(1, 32))]; "
               "found, real = handlers(), airtrack.main; "
               "airtrack.main = lambda: [real(), print('the same:', handlers() == found)][0]")
     with Terminal(*quick(change), "0", "--frames=1") as terminal:
         terminal.until("the same: True")
-
 
 def test_keys_count_from_the_very_start_but_arrows_and_other_keys_do_nothing() -> None:
     with Terminal(*HELD) as terminal:
@@ -85,7 +79,6 @@ def test_keys_count_from_the_very_start_but_arrows_and_other_keys_do_nothing() -
         terminal.press("x\x1b[A")
         terminal.ends(0)
 
-
 @pytest.mark.parametrize("line", ['"$@" < /dev/null', '"$@" | cat', 'setsid -w "$@"'])
 def test_a_terminal_from_which_no_keys_can_come_is_left_alone(line: str) -> None:
     if "setsid" in line and shutil.which("setsid") is None:
@@ -95,7 +88,6 @@ def test_a_terminal_from_which_no_keys_can_come_is_left_alone(line: str) -> None
         assert terminal.mode() == terminal.found
         terminal.ends(0)
         assert re.search(r"Ctrl-C[^.]*\bends?\b", terminal.all.partition(FRAME)[0])
-
 
 def test_in_a_pipe_each_frame_comes_at_once_and_ctrl_c_ends_the_film() -> None:
     words = ["0", "d", "fps_target=0.1", "--frames=3"]  # the second one would come after 10 s
@@ -107,9 +99,7 @@ def test_in_a_pipe_each_frame_comes_at_once_and_ctrl_c_ends_the_film() -> None:
         program.send_signal(2)
         assert "Stopped after 1 frames" in program.stdout.read()
 
-
 SHELLS = {"bash": ["bash", "--norc", "--noprofile", "-i"], "dash": ["dash", "-i"]}
-
 
 @pytest.mark.parametrize(("name", "is_sent_back", "is_killed"), [
     ("dash", False, False), ("bash", False, False), ("bash", False, True), ("bash", True, False),
@@ -137,7 +127,6 @@ def test_ctrl_z_gives_the_terminal_back_and_bg_fg_and_kill_work(
             shell.press("x")
             shell.until("airtrack.py 1")
 
-
 def test_keys_that_were_typed_and_not_read_do_not_reach_the_shell() -> None:
     change = ("real = airtrack.render_track; airtrack.render_track = lambda *words: "
               "[print('dra' + 'wing', flush=True), examples.select.select([0], [], []), "
@@ -152,7 +141,6 @@ def test_keys_that_were_typed_and_not_read_do_not_reach_the_shell() -> None:
         shell.until("status 0")
         assert "xecho" not in shell.all
 
-
 def test_a_terminal_shows_the_marks_in_colours_unless_that_is_not_wanted() -> None:
     words = "0 d x_m=17 v_mps=100 width_px=140 show_collision_mark=True --frames=1"
     frames = []
@@ -164,7 +152,6 @@ def test_a_terminal_shows_the_marks_in_colours_unless_that_is_not_wanted() -> No
     coloured, *others = frames
     assert set(re.findall("\x1b\\[[0-9]+m(.)\x1b\\[0m", coloured)) == {"*", "+", "o", "0"}
     assert others == [re.sub("\x1b\\[[0-9]+m(.)\x1b\\[0m", r"\1", coloured)] * 4
-
 
 def test_in_a_narrow_terminal_no_line_wraps_and_one_says_that_the_picture_is_smaller() -> None:
     for columns in (80, 200):

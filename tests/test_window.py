@@ -19,7 +19,6 @@ from films import COMMAND, PATIENCE_S, Terminal, environment, quick
 # Pygame itself is not imported here: it would set environment variables that a run then inherits.
 HAS_PYGAME = importlib.util.find_spec("pygame") is not None
 
-
 @pytest.fixture(scope="module")
 def screen() -> Iterator[str]:
     """The name of an X server without a window manager."""
@@ -34,11 +33,9 @@ def screen() -> Iterator[str]:
             yield f":{pipe.readline().strip()}"
         server.terminate()
 
-
 def xdotool(screen: str, words: str) -> str:
     return subprocess.run(["xdotool", *words.split()], env=environment(DISPLAY=screen), text=True,
                           capture_output=True, check=False, timeout=PATIENCE_S).stdout.strip()
-
 
 def find_window(screen: str, film: Terminal) -> None:
     """Wait for the window of a film, and let it have the keys."""
@@ -46,11 +43,9 @@ def find_window(screen: str, film: Terminal) -> None:
     search = f"search --sync --onlyvisible --pid {film.program.pid}"
     xdotool(screen, f"{search} windowfocus --sync")
 
-
 def colours(screen: str) -> int:
     """How many colours are on the screen: black, the window's white, and those of its text."""
     return len(ImageGrab.grab(xdisplay=screen).getcolors(800 * 600) or [])
-
 
 def test_caption_and_face_say_what_the_keys_do_and_they_do_it(screen: str) -> None:
     with Terminal(*HELD, DISPLAY=screen, SDL_VIDEODRIVER=None) as film:
@@ -76,7 +71,6 @@ def test_caption_and_face_say_what_the_keys_do_and_they_do_it(screen: str) -> No
         assert re.search(r"Stopped after .*\bEsc\b", film.all)
         assert "Hello" not in film.all  # pygame says that if it is not told to be silent
 
-
 def test_other_keys_in_the_window_do_nothing_and_those_of_the_terminal_work(screen: str) -> None:
     with Terminal(*HELD, DISPLAY=screen, SDL_VIDEODRIVER=None) as film:
         find_window(screen, film)
@@ -87,7 +81,6 @@ def test_other_keys_in_the_window_do_nothing_and_those_of_the_terminal_work(scre
             film.goes_on()
         film.press("x")
         film.ends(0)
-
 
 def test_closing_the_window_ends_the_film_and_after_a_film_the_window_is_shut(screen: str) -> None:
     # A click on its x would post this event. But Xvfb has no window manager, so nothing to click.
@@ -103,7 +96,6 @@ def test_closing_the_window_ends_the_film_and_after_a_film_the_window_is_shut(sc
         assert not xdotool(screen, "search --onlyvisible --class .")
         film.press("\n")
         film.ends(0)
-
 
 @pytest.mark.skipif(sys.platform != "linux" or not HAS_PYGAME, reason="needs X11, and pygame")
 @pytest.mark.parametrize(("option", "display", "driver", "reason"), [
@@ -125,7 +117,6 @@ def test_without_a_window_a_film_says_why_and_goes_on(
         assert "old wood" not in header
         film.press("x")
         film.ends(0)
-
 
 def test_a_fast_film_does_not_touch_pygame(tmp_path: Path) -> None:
     (tmp_path / "pygame.py").write_text("import os; os._exit(9)")

@@ -20,7 +20,6 @@ from examples import EXAMPLES, NoKeys
 
 FRAMES = 20_000
 
-
 def frame_us(scene: Scene) -> float:
     """A frame of its film, printed into memory."""
     def play() -> None:
@@ -30,7 +29,6 @@ def frame_us(scene: Scene) -> float:
         costs_s = repeat(play, number=1, repeat=7, timer=time.process_time)
     return 1e6 / FRAMES * min(costs_s)
 
-
 def main() -> None:
     ten = Scene(**EXAMPLES[10].settings)
     for fps in (10, 120, 960):
@@ -39,7 +37,6 @@ def main() -> None:
         ratio = max(costs_us) / min(costs_us)
         print(f"example 10 at {fps} FPS: the dearest method costs {ratio:.2f} times the cheapest")
     print(f"example 10: the move takes {cost_us(ten, 10) / 10 / frame_us(ten):.0%} of a frame")
-
 
 if __name__ == "__main__":
     main()

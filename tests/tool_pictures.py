@@ -37,7 +37,6 @@ LINE_PX, LETTER_PX, EDGE_PX = 20, 10, 8
 PAPER, GREY = (24, 24, 27), (190, 190, 196)
 INK = {"0": (248, 113, 113), "o": (74, 222, 128), "*": (250, 204, 21)}
 
-
 def screen(lines: list[str]) -> Image.Image:
     """The terminal when the last of the lines after the command has just been printed."""
     size = COLUMNS * LETTER_PX + 2 * EDGE_PX, ROWS * LINE_PX + 2 * EDGE_PX
@@ -51,7 +50,6 @@ def screen(lines: list[str]) -> Image.Image:
             draw.text((EDGE_PX + column * LETTER_PX, EDGE_PX + row * LINE_PX), letter, colour, font)
     return picture
 
-
 def moving_picture(file: Path) -> None:
     words = [*COMMAND.split()[1:], "--fast", "--frames", str(FRAMES)]
     out = subprocess.run([sys.executable, *words], text=True, check=True, cwd=HERE,
@@ -60,7 +58,6 @@ def moving_picture(file: Path) -> None:
     frames = [screen(lines[:n]).quantize(9) for n in range(ROWS - 2, FRAMES + 1)]
     frames[0].save(file, save_all=True, append_images=frames[1:], loop=0,
                    duration=[100] * (len(frames) - 1) + [2000], optimize=False)
-
 
 def chart(words: list[str], file: Path) -> None:
     """Measure as the program's chart does, and draw the points on two logarithmic scales."""
@@ -91,9 +88,7 @@ def chart(words: list[str], file: Path) -> None:
     axes.legend(loc="lower center", bbox_to_anchor=(0.5, -0.28), ncols=3, fontsize=8)
     figure.savefig(file)
 
-
 A4_INCHES = 8.27, 11.69
-
 
 def worksheet(file: Path) -> None:
     """The worksheet as two pages of A4. A form feed parts the pages of its source."""
@@ -105,7 +100,6 @@ def worksheet(file: Path) -> None:
                         verticalalignment="top")
             pages.savefig(figure)
 
-
 def main(words: list[str]) -> None:
     if words:
         chart(words[1:-1], Path(words[-1]))
@@ -113,7 +107,6 @@ def main(words: list[str]) -> None:
     moving_picture(PAGES / "example-17.gif")
     chart([], PAGES / "chart.png")
     worksheet(PAGES / "worksheet.pdf")
-
 
 if __name__ == "__main__":
     main(sys.argv[1:])
