@@ -22,6 +22,15 @@ def scene_of(number: int, motion: str, correction: str) -> Scene:
 
 # What is measured.
 
+def test_a_run_begins_at_the_truth_a_part_of_a_frame_later_and_lasts_20_s() -> None:
+    scene = scene_of(12, "backward", "rebound")
+    truth, begins_s = airtrack.truth_of(scene), 9 / 11 / 60
+    first, *others, last = airtrack.simulate(scene, 60, 9, 6)
+    assert len(others) == 199  # one is kept each 0.1 s
+    assert last.t_s == pytest.approx(20)
+    assert (first.x_m, first.v_mps) == airtrack.step(truth, 2.0, 0.0, begins_s)[:2]
+    assert last.true_m == pytest.approx(airtrack.step(truth, 2.0, 0.0, begins_s + 20)[0])
+
 def test_in_example_12_a_b_and_c_have_order_1_and_d_has_order_2_and_e_no_error() -> None:
     orders = []
     for letter, method in METHODS.items():
@@ -41,6 +50,18 @@ def test_the_order_is_the_power_with_which_errors_get_smaller(order: float, firs
     assert float(order_text([large, *points, *small], 1.0)) == pytest.approx(order, abs=0.051)
     assert order_text([large, large, *points[:2]], 1.0) == "?"
     assert order_text([Point(fps, 1e-12, 1) for fps in (10, 20, 40)], 1.0) == "none"
+
+def test_the_cost_is_that_of_the_steps_of_a_simulated_second(
+        monkeypatch: pytest.MonkeyPatch) -> None:
+    steps = []
+
+    def counted_step(*_: object) -> tuple[float, float, None]:
+        steps.append(1)
+        return 1.0, 0.0, None
+
+    monkeypatch.setattr(airtrack, "step", counted_step)
+    monkeypatch.setattr("time.perf_counter", lambda: 2e-6 * len(steps))  # a step takes 2 us
+    assert airtrack.cost_us(Track(), 30) == pytest.approx(2 * 30)
 
 # What the chart shows.
 

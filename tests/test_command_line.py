@@ -92,6 +92,7 @@ def test_h_names_every_setting_example_motion_and_correction_in_80_columns() -> 
 def test_without_a_number_it_is_example_1_and_any_whole_number_is_a_scene(
         words: str, title: str) -> None:
     assert shown(f"{words} --frames=1").intro.startswith(title)
+    assert "jitter=0.25" in shown("9 --frames=1").intro  # all that moves the car is told
 
 @pytest.mark.parametrize("command", ["chart", "stability"])
 def test_a_command_in_any_place_is_for_example_12_or_another_from_a_start_on_the_track(

@@ -75,3 +75,9 @@ def test_in_a_narrow_terminal_lines_do_not_wrap_and_show_both_walls(
     lines = film.splitlines()[:-1]
     assert max(len(line) for line in lines) <= columns
     assert len(wall_columns(lines)) == 2
+
+def test_the_smallest_zoom_is_drawn_in_a_narrow_terminal_too(
+        monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", "60")
+    with contextlib.redirect_stdout(TextOfATerminal()):
+        assert main(["9", "m_to_px=0.001", "--fast", "--frames=1"]) == 0

@@ -160,23 +160,6 @@ def test_a_paddle_and_a_lift_take_each_ball_and_give_it_their_speed(seed: int) -
             assert behind[place] > face  # it does not jump
         assert game[speed] == pytest.approx(u - CR * (came - u))
 
-def test_the_figures_of_the_cure() -> None:
-    g = 9.81
-    found_m = heights_m(CODE, 1200, g=g)
-    fall_s = sqrt(2 / g)
-    contacts = [frame for frame, height_m in enumerate(found_m, 1) if height_m == 0]
-    late = contacts[-1] - 60 * fall_s * (2 * len(contacts) - 1)
-    off_m = []
-    for frame, height_m in enumerate(found_m, 1):
-        since_top_s = (frame / 60 + fall_s) % (2 * fall_s) - fall_s
-        off_m.append(abs(height_m - 1 + g * since_top_s**2 / 2))
-    assert f"the ball is {late:.0f} frames late after 20 s" in README
-    assert f"{max(off_m):.2f} m" in README
-    usual = CURE.replace("y += v*dt + g*dt*dt/2", "v += g*dt\ny += v*dt", 1)
-    usual = usual.replace("v += g*dt              # then v", "")
-    first, second, third = tops_m(heights_m(compile(usual, "README.md", "exec"), 300))[:3]
-    assert f"{first:.2f}, {second:.2f} and {third:.2f} m" in README
-
 # How good are the methods?
 
 def test_the_rows_of_the_map_are_the_program_s() -> None:
