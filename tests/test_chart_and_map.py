@@ -164,16 +164,18 @@ def test_a_cell_is_the_worst_of_the_runs_and_small_if_only_some_are_so_bad(
         letters: str, letter: str) -> None:
     assert airtrack.cell(list(letters)) == letter
 
-def test_the_map_has_fourteen_rows_of_nine_letters_and_fits_on_a_screen_with_its_key(
+def test_the_map_has_a_row_for_each_pair_and_fits_on_a_screen_with_its_key(
         monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
     monkeypatch.setenv("COLUMNS", "80")
     main(["stability", "10"])
     out = capsys.readouterr().out
     assert max(len(line) for line in out.splitlines()) <= 80
     _, *screen = out.rpartition("\n\n")[2].splitlines()
-    for row in screen[:14]:
+    rows, key = screen[:-8], screen[-8:]
+    assert len(rows) == 4 * len(airtrack.MOTIONS) + 2  # 14, which is 22 lines with the key
+    for row in rows:
         assert re.fullmatch(r"\w+ \+ \w+" + r" +[XxSsHhWGgLlPp-]" * 9, row)
-    assert [line[0] for line in screen[14:]] == [*"XSHWGLP-"]
+    assert [line[0] for line in key] == [*"XSHWGLP-"]
     assert re.search(r"(?m)^backward \+ rebound( +\S){3} +W ", out)  # at 10 FPS
 
 def test_film_chart_and_map_agree_on_what_is_within_a_column(
