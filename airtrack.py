@@ -793,7 +793,6 @@ def print_picture(points: dict[str, list[Point]], column_m: float) -> None:
             behind = "|" if column == limit else " "
             line += letters.get((row, column), behind)
         print(line.rstrip())
-    print()
 
 def print_answer(points: dict[str, list[Point]], column_m: float) -> None:
     """Answer the question: which methods stay within a column, and what do they cost?"""
