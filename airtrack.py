@@ -1113,6 +1113,22 @@ def scene_text(scene: Scene) -> str:
             text += f"; {letter}: {method_text(motion, correction)}"
     return text
 
+# Chart and map use these settings alone. They choose methods and frame rates themselves.
+FOR_COMMANDS = ["x_m", "v_mps", "a_mps2", "left_edge_m", "right_edge_m", "CR", "m_to_px",
+                "width_px"]
+
+def say_after(wanted: Wanted, shown: Shown) -> None:
+    """Say what was to be seen or, where nobody knows it, what to try. Then say what comes next."""
+    print()
+    say(shown.texts.seen)
+    if shown.texts in (CHANGED, CHANGED_FRAMES, OWN_SCENE):
+        say("The map calls a method right if its car is never further off than a column of the "
+            f"film, which is {1 / shown.scene.m_to_px:.2g} m wide there:")
+        words = [f"{name}={text}" for name, text in wanted.typed.items() if name in FOR_COMMANDS]
+        print(PYTHON, "airtrack.py stability", wanted.number, *words)
+    following = wanted.number + 1 if wanted.number + 1 in EXAMPLES else "chart"
+    say(f"Next: {PYTHON} airtrack.py {following}")
+
 def film(wanted: Wanted, shown: Shown) -> None:
     """Say what to look for, leave time to guess, show the film, and say what was to be seen."""
     scene = shown.scene
@@ -1136,22 +1152,6 @@ def film(wanted: Wanted, shown: Shown) -> None:
     tell_cars(cars)
     if not wanted.is_fast:
         say_after(wanted, shown)
-
-# Chart and map use these settings alone. They choose methods and frame rates themselves.
-FOR_COMMANDS = ["x_m", "v_mps", "a_mps2", "left_edge_m", "right_edge_m", "CR", "m_to_px",
-                "width_px"]
-
-def say_after(wanted: Wanted, shown: Shown) -> None:
-    """Say what was to be seen or, where nobody knows it, what to try. Then say what comes next."""
-    print()
-    say(shown.texts.seen)
-    if shown.texts in (CHANGED, CHANGED_FRAMES, OWN_SCENE):
-        say("The map calls a method right if its car is never further off than a column of the "
-            f"film, which is {1 / shown.scene.m_to_px:.2g} m wide there:")
-        words = [f"{name}={text}" for name, text in wanted.typed.items() if name in FOR_COMMANDS]
-        print(PYTHON, "airtrack.py stability", wanted.number, *words)
-    following = wanted.number + 1 if wanted.number + 1 in EXAMPLES else "chart"
-    say(f"Next: {PYTHON} airtrack.py {following}")
 
 # ==== 11. Settings ==============================================================================
 # What does each setting mean, and what may it be?
