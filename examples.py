@@ -265,7 +265,8 @@ CHANGED = Example("A changed example", {},
     "your change do to the *? Is the * right now?", TRY)
 CHANGED_FRAMES = Example("An example with other frames", {},
     "An o is the true car. If you do not see it, it is under the *. What does your change of the "
-    "frames do to the *? Is the * right now?", TRY)
+    "frames do to the *? Is the * right now?",
+    "Beside this table look at the table of the example as it is. " + TRY)
 OWN_SCENE = Example(f"Your own scene (the examples are 0 to {max(EXAMPLES)})", {
     "show_exact_mark": True},
     "The * is your car, and the o is the true car. Where you see no o, it is under the *. Does the "
