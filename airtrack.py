@@ -436,6 +436,8 @@ def method_text(motion: str, correction: str) -> str:
     """A method in words, as in backward + rebound."""
     return f"{motion} + {correction}"
 
+LEGEND = [f"{letter}: {method_text(*method)}" for letter, method in METHODS.items()]
+
 # ==== 5. Drawing ================================================================================
 # How does a frame become a line of text?
 
@@ -622,8 +624,8 @@ def cars_of(scene: Scene, unchanged: Scene | None) -> dict[str, Car]:
     """
     cars = {}
     if scene.show_methods:
+        start_m = scene.to_track(scene.x_m)  # d and e need a start on the track
         for letter, (motion, correction) in METHODS.items():
-            start_m = scene.to_track(scene.x_m)  # d and e need a start on the track
             cars[letter] = Car(replace(scene, x_m=start_m, motion=motion, correction=correction))
     if scene.show_exact_mark:
         cars["o"] = Car(truth_of(scene))
@@ -828,8 +830,7 @@ def chart(scene: Scene, number: int) -> None:
         "is how the true car is moved, so its error is 0.")
     points = print_table(scene)
     print_picture(points, column_m)
-    legend = [f"{letter}: {method_text(*method)}" for letter, method in METHODS.items()]
-    say(f"{', '.join(legend)}. Error to the right, cost downwards: the best are in the upper left. "
+    say(f"{', '.join(LEGEND)}. Error to the right, cost downwards: the best are in the upper left. "
         "Where letters meet there is a +.")
     print_answer(points, column_m)
     say(f"Next: {PYTHON} airtrack.py stability {number}")
@@ -1109,8 +1110,7 @@ def scene_text(scene: Scene) -> str:
     if not scene.has_on_it(scene.x_m):
         text += "; it starts beyond a wall"
     if scene.show_methods:
-        for letter, (motion, correction) in METHODS.items():
-            text += f"; {letter}: {method_text(motion, correction)}"
+        text = "; ".join([text, *LEGEND])
     return text
 
 # Chart and map use these settings alone. They choose methods and frame rates themselves.

@@ -374,7 +374,7 @@ else:
             take()
             yield
         finally:
-            set_handlers(dict.fromkeys(DISTURBING_SIGNALS, ignore))
+            set_handlers(dict.fromkeys(DISTURBING_SIGNALS, ignore))  # also if no signal ended it
             give_back(termios.TCSAFLUSH)  # TCSAFLUSH throws away the keys that wait
             set_handlers(before)
 

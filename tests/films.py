@@ -9,10 +9,11 @@ import signal
 import subprocess
 import sys
 import time
+from itertools import pairwise
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from airtrack import Car, Scene, main, planned_length
+from airtrack import FOR_COMMANDS, Car, Scene, main, planned_length
 from examples import EXAMPLES, OWN_SCENE
 
 if sys.platform != "win32":
@@ -66,6 +67,25 @@ def filmed(number: int, frames: int, **changes: Any) -> Car:
         else:
             car.move(1 / scene.fps_target)
     return car
+
+def compared(number: int, motion: str, correction: str) -> Scene:
+    """An example as chart and map take it, with a method."""
+    settings = EXAMPLES[number].settings
+    kept = {name: settings[name] for name in FOR_COMMANDS if name in settings}
+    return Scene(**kept, motion=motion, correction=correction)
+
+def bounces(car: Car) -> list[int]:
+    """The frames in which a collision was found."""
+    return [number for number, frame in enumerate(car.frames) if frame.mark_m is not None]
+
+def hops(car: Car) -> list[int]:
+    """How many frames there are from bounce to bounce."""
+    return [after - before for before, after in pairwise(bounces(car))]
+
+def tops_m(found_m: list[float]) -> list[float]:
+    """The heights, or the places to the right, at which something turned."""
+    return [found_m[n] for n in range(1, len(found_m) - 1)
+            if found_m[n - 1] <= found_m[n] > found_m[n + 1]]
 
 PATIENCE_S = 30  # for what must come: only a test that fails waits so long
 

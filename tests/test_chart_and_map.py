@@ -8,22 +8,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import airtrack
-from airtrack import METHODS, Frame, Point, Scene, Track, main, order_text, verdict
-from examples import EXAMPLES
-from films import filmed
+from airtrack import METHODS, Frame, Point, Track, main, order_text, verdict
+from films import compared, filmed
 
 Capture = pytest.CaptureFixture[str]
-
-def scene_of(number: int, motion: str, correction: str) -> Scene:
-    """An example as chart and map take it, with a method."""
-    settings = EXAMPLES[number].settings
-    kept = {name: settings[name] for name in airtrack.FOR_COMMANDS if name in settings}
-    return Scene(**kept, motion=motion, correction=correction)
 
 # What is measured.
 
 def test_a_run_begins_at_the_truth_a_part_of_a_frame_later_and_lasts_20_s() -> None:
-    scene = scene_of(12, "backward", "rebound")
+    scene = compared(12, "backward", "rebound")
     truth, begins_s = airtrack.truth_of(scene), 9 / 11 / 60
     first, *others, last = airtrack.simulate(scene, 60, 9, 6)
     assert len(others) == 199  # one is kept each 0.1 s
@@ -34,7 +27,7 @@ def test_a_run_begins_at_the_truth_a_part_of_a_frame_later_and_lasts_20_s() -> N
 def test_in_example_12_a_b_and_c_have_order_1_and_d_has_order_2_and_e_no_error() -> None:
     orders = []
     for letter, method in METHODS.items():
-        scene = scene_of(12, *method)
+        scene = compared(12, *method)
         coarse_m, fine_m = airtrack.largest_error_m(scene, 30), airtrack.largest_error_m(scene, 240)
         if letter == "e":
             assert fine_m == coarse_m == 0
@@ -121,7 +114,7 @@ def test_the_picture_has_each_point_below_its_error_and_beside_its_cost(capsys: 
     ("-", 14, "exact", "replay", 1)])
 def test_each_letter_in_a_scene_of_which_it_is_known(
         letter: str, number: int, motion: str, correction: str, fps: int) -> None:
-    scene = scene_of(number, motion, correction)
+    scene = compared(number, motion, correction)
     assert airtrack.cell([verdict(scene, 1 / 55, fps, cut) for cut in range(10)]) == letter
 
 def fast(gain: float) -> dict[str, float]:
@@ -188,5 +181,5 @@ def test_film_chart_and_map_agree_on_what_is_within_a_column(
         car = filmed(10, 200, motion=motion, correction=correction)  # one of the ten runs
         in_film_m = max(frame.error_m() for frame in car.frames)
         assert in_film_m - 1e-9 <= in_chart_m * 1.05  # two digits are printed
-        in_map = {verdict(scene_of(10, motion, correction), 1 / 55, 10, cut) for cut in range(10)}
+        in_map = {verdict(compared(10, motion, correction), 1 / 55, 10, cut) for cut in range(10)}
         assert (in_map == {"-"}) is (in_chart_m <= 1 / 55)

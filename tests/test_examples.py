@@ -1,24 +1,15 @@
 """The examples: the figures of their texts, beside the films. (The texts round them.)"""
 
-from itertools import pairwise
 from typing import Any
 
 import pytest
 
 from airtrack import Car
-from films import filmed, shown
+from films import bounces, filmed, hops, shown, tops_m
 
 TRUTH = {"motion": "exact", "correction": "replay"}
 CONSERVE = {"motion": "exact", "correction": "conserve"}
 Changes = dict[str, Any]
-
-def bounces(car: Car) -> list[int]:
-    """The frames in which a collision was found."""
-    return [number for number, frame in enumerate(car.frames) if frame.mark_m is not None]
-
-def hops(car: Car) -> list[int]:
-    """How many frames there are from bounce to bounce."""
-    return [after - before for before, after in pairwise(bounces(car))]
 
 def furthest_m(car: Car) -> float:
     """How far the car was from its true car at most."""
@@ -42,8 +33,7 @@ def test_the_first_bounce_is_in_this_frame(number: int, frame: int, changes: Cha
 def test_on_its_way_to_the_right_it_turns_here(
         number: int, turns_m: list[float], changes: Changes) -> None:
     xs_m = [frame.x_m for frame in filmed(number, 3000, **changes).frames]
-    found_m = [xs_m[n] for n in range(1, 3000) if xs_m[n - 1] <= xs_m[n] > xs_m[n + 1]]
-    assert found_m[:len(turns_m)] == pytest.approx(turns_m, abs=0.006)
+    assert tops_m(xs_m)[:len(turns_m)] == pytest.approx(turns_m, abs=0.006)
 
 @pytest.mark.parametrize(("number", "off_m", "frames", "changes"), [
     (12, 0.0042, 119, {}), (13, 0.24, 24, {}), (16, 0.01, 1, {}), (16, 0.02, 2, {}),

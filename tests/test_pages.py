@@ -3,7 +3,6 @@ films, chart and map are those of the program."""
 
 import random
 import re
-from itertools import pairwise
 from math import sqrt
 from types import CodeType
 from typing import Any
@@ -13,7 +12,7 @@ import pytest
 import airtrack
 from airtrack import Scene, main, simulate, step, verdict
 from examples import EXAMPLES
-from films import HERE, filmed, shown
+from films import HERE, bounces, compared, filmed, hops, shown, tops_m
 
 PAGES = {path.name: path.read_text(encoding="utf-8") for path in
          (HERE / "README.md", HERE / ".github/lesson.md", HERE / ".github/exercises.md")}
@@ -63,11 +62,6 @@ def heights_m(code: CodeType, frames: int, **names: Any) -> list[float]:
         exec(code, game)
         found.append(4.9 - game["y"])
     return found
-
-def tops_m(found_m: list[float]) -> list[float]:
-    """The heights at which it turned."""
-    return [found_m[n] for n in range(1, len(found_m) - 1)
-            if found_m[n - 1] <= found_m[n] > found_m[n + 1]]
 
 def energy(game: dict[str, Any]) -> float:
     """In J/kg, above the floor."""
@@ -163,19 +157,17 @@ def test_a_paddle_and_a_lift_take_each_ball_and_give_it_their_speed(seed: int) -
 
 def test_the_rows_of_the_map_are_the_program_s() -> None:
     head, *rows = block(README, "1000 FPS").splitlines()
-    scene = Scene(x_m=2, a_mps2=-2, CR=0.8)
     rates = [int(fps) for fps in head.split()[:-1]]
     for row in rows:
         motion, _, correction, *letters = row.split()
-        method = Scene(x_m=2, a_mps2=-2, CR=0.8, motion=motion, correction=correction)
+        method = compared(12, motion, correction)
         for fps, letter in zip(rates, letters, strict=True):
-            runs = [verdict(method, 1 / scene.m_to_px, fps, cut) for cut in range(airtrack.CUTS)]
+            runs = [verdict(method, 1 / 55, fps, cut) for cut in range(airtrack.CUTS)]
             assert airtrack.cell(runs) == letter
 
 @pytest.mark.parametrize(("letter", "fps"), [("a", 480), ("c", 240), ("d", 10)])
 def test_a_method_stays_within_a_column_from_the_rate_that_is_told(letter: str, fps: int) -> None:
-    motion, correction = airtrack.METHODS[letter]
-    method = Scene(x_m=2, a_mps2=-2, CR=0.8, motion=motion, correction=correction)
+    method = compared(12, *airtrack.METHODS[letter])
     assert airtrack.largest_error_m(method, fps) <= 1 / 55
     if fps > 10:
         assert max(frame.error_m() for frame in simulate(method, fps // 2, 0, 1)) > 1 / 55
@@ -252,9 +244,8 @@ def test_the_zeno_point_and_the_hops_of_the_other_exercises() -> None:
     assert step(lies, 2.0, 0.0, 25.2)[1] == 0
     assert step(lies, 2.0, 0.0, 25.0)[1] != 0
     car = filmed(20, 60, CR=0.6, motion="forward", correction="surface")
-    bounces = [number for number, frame in enumerate(car.frames) if frame.mark_m is not None]
-    assert [after - before for before, after in pairwise(bounces)] == [11, 9, 8, 7, 6, 6]
+    assert hops(car) == [11, 9, 8, 7, 6, 6]
     rows = re.findall(r"\| (0\.\d+) \| [\d.]+ \| (\d+) \| ([\d.]+) \|", EXERCISES)
-    for (u, n, w), bounce in zip(rows, bounces, strict=False):
+    for (u, n, w), bounce in zip(rows, bounces(car), strict=False):
         assert float(u) == pytest.approx(car.frames[bounce].v_mps, abs=0.0006)
         assert float(w) == pytest.approx(0.2 * int(n) - float(u), abs=0.0006)
