@@ -19,35 +19,34 @@ In a film, * is the car and | is a wall. < or > is the car, too, when it is out
 of the picture. If the car bounces, 0 is where the frame would have ended
 without walls. A . is the start. o is the true car. If you change the car or the
 track of an example, but not its frames, + is the car of the example as it is.
-a to e are the cars of five methods.
-
-README.md says what this is good for. .github/lesson.md is a lesson for a class.
+a to e are the cars of five methods. After the film a table says which are right.
 """
 # What is where?
-#     Sections 1 to 4     the physics: how a car moves and bounces, and where it truly is.
-#                         Section 4 ends with a table: which method is good for what.
-#     Sections 5 and 6    the film: how a frame is drawn, and the main loop.
-#     Sections 7 to 9     how wrong the methods are: the chart, the map, and the law behind the map.
-#     Sections 10 to 12   the texts before and after a film, the settings, and the command line.
-# The file examples.py holds the numbered examples and the keys.
+#     Sections 1 to 5    the demo: how a car moves and bounces, how a frame is drawn, and the main
+#                        loop. You may stop reading after section 5.
+#     Section 6          the truth, and a table: which method is good for what.
+#     Sections 7 and 8   how wrong the methods are: the chart and the map.
+#     Sections 9 and 10  what stands before and after a film, and the command line.
+# The file examples.py holds the numbered examples and the keys. The folder .github has pages: a
+# lesson, exercises, the law behind the map, and a cure for balls in games.
 
 import argparse
 import difflib
 import math
 import os
+import re
 import shutil
 import sys
 import textwrap
 import time
-from collections.abc import Iterator
+from bisect import bisect_left, bisect_right
 from contextlib import nullcontext
-from dataclasses import dataclass, fields, replace
-from functools import partial
-from itertools import pairwise
+from dataclasses import dataclass, field, fields, replace
+from itertools import pairwise, takewhile
 from statistics import fmean, linear_regression
 from typing import Any, NamedTuple
 
-from examples import CHANGED, CHANGED_FRAMES, EXAMPLES, OWN_SCENE, Example, Keys, NoKeys, taken_keys
+from examples import CHANGED, CHANGED_FRAMES, EXAMPLES, OWN_SCENE, Example, Keys, taken_keys
 
 # ==== 1. Moving =================================================================================
 # Where is the car dt_s later, if there are no walls?
@@ -66,7 +65,7 @@ from examples import CHANGED, CHANGED_FRAMES, EXAMPLES, OWN_SCENE, Example, Keys
 # In free flight the energy of the car should not change. For each kilogram of the car this energy
 # is E = v^2/2 - a x. The docstring of each method says what one step does to E.
 
-State = tuple[float, float]  # a place and a velocity
+State = tuple[float, float]  # x_m and v_mps
 
 def forward(x_m: float, v_mps: float, a_mps2: float, dt_s: float) -> State:
     """Forward Euler: x + v dt, then v + a dt. Each step adds a^2 dt^2/2 to the energy E."""
@@ -81,16 +80,18 @@ def exact(x_m: float, v_mps: float, a_mps2: float, dt_s: float) -> State:
     """Kinematics: x + v dt + a dt^2/2, and v + a dt. No step changes the energy E."""
     return x_m + v_mps * dt_s + a_mps2 * dt_s * dt_s / 2, v_mps + a_mps2 * dt_s
 
-# If you write another motion, name it here. Then film and map know it. (The chart compares METHODS,
-# see section 4.) Rewind and replay do not go with it, because they need the exact motion.
+# If you write another motion, name it here. Then film and map know it. Three things it does not
+# get: a true car of its own (the o keeps its constant a), a place in the chart (see METHODS in
+# section 6), and the corrections rewind and replay (they need the exact motion).
 MOTIONS = {"forward": forward, "backward": backward, "exact": exact}
 
 # ==== 2. Colliding ==============================================================================
 # Where is the car after it has met a wall, and how fast is it?
 #
 # A collision is found when a move has ended beyond a wall. Then a correction gives the car a new
-# place and a new velocity. The correction need not know which of the two walls it is, because it
-# counts from the wall, and into the wall:
+# place and a new velocity. (Without it the car may stick in the wall, so the lesson that this
+# program follows calls it a stickiness correction.) The correction need not know which of the two
+# walls it is, because it counts from the wall, and into the wall:
 #
 #     depth_m       how far the car is beyond the wall. In front of the wall, depth_m is negative.
 #     inward_mps    the velocity of the car. It is positive if the car moves into the wall.
@@ -118,7 +119,9 @@ MOTIONS = {"forward": forward, "backward": backward, "exact": exact}
 # The five corrections of this section take the same four arguments, and return a new depth_m and a
 # new inward_mps. So step() can call any of them.
 
-def none(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> State:
+Contact = tuple[float, float]  # depth_m and inward_mps
+
+def none(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> Contact:
     """Reverse the velocity, but leave the car beyond the wall, where it may be caught.
 
     In example 3 the motion is backward, inward_mps2 is 1.5, dt is 1/30 s, and CR is 0.6. Rounded:
@@ -132,26 +135,26 @@ def none(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> St
     """
     return depth_m, -CR * inward_mps
 
-def surface(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> State:
+def surface(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> Contact:
     """Put the car on the wall, with its velocity reversed.
 
     If the acceleration points into the wall, surface lifts the car against it. That should cost
-    speed, but surface does not slow the car. So with the exact motion the car has more energy than
-    it should: in the drawn collision 2.88 J/kg instead of 1.86.
+    speed, but surface does not slow the car. So with the exact motion, and a CR above 0, the car
+    has more energy than it should: in the drawn collision 2.88 J/kg instead of 1.86.
     """
     return 0.0, -CR * inward_mps
 
-def rebound(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> State:
+def rebound(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> Contact:
     """Put the car in front of the wall, CR * depth away.
 
     Without an acceleration this is right: in the time in which the move went on into the wall, the
-    true car went back, CR times as fast. If the acceleration points into the wall, and the motion
-    is exact, rebound leaves too much energy, as surface does. If CR * depth is longer than the
-    track, the car is thrown out at the other end (example 14).
+    true car went back, CR times as fast. If the acceleration points into the wall, rebound leaves
+    too much energy where surface does. If CR * depth is longer than the track, the car is thrown
+    out at the other end (example 14).
     """
     return -CR * depth_m, -CR * inward_mps
 
-def conserve(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> State:
+def conserve(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> Contact:
     """Put the car on the wall, as surface does, but with the speed that the energy allows.
 
     With the exact motion the energy is right after each bounce whose move ends beyond the wall.
@@ -179,19 +182,19 @@ def arrival(d_m: float, u_mps: float, a_mps2: float) -> tuple[float, float]:
         t_s = (w_mps - u_mps) / a_mps2  # from w = u + a t. Here u <= 0, so w - u is a sum.
     return t_s, w_mps
 
-def rewind(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> State:
+def rewind(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> Contact:
     """Take the car back in time to the wall, let it bounce, and move it on to the frame's end.
 
     With the exact motion this is right if the frame holds one bounce and the move ends beyond the
     wall. So in example 10, where CR is 1, the car comes back to its start each time. Rewind cannot
-    settle a second bounce. So a car that should lie still on the wall keeps a velocity into it. In
-    frames of one length this velocity is a dt/(1 + CR). If the car turns beyond the wall and is
-    back on the track when the frame ends, no collision is found: a missed event (example 18). In a
-    frame in which the car should cross the whole track, rewind may throw it out, too.
+    settle a second bounce. So a car that should lie still on the wall never does so exactly: in
+    example 12 it goes on to hop some mm high. If the car turns beyond the wall and is back on the
+    track when the frame ends, no collision is found: a missed event (example 18). In a frame in
+    which the car should cross the whole track, rewind may throw it out, too.
     """
     # How long ago did the car pass the wall, and how fast? Let time run backwards: then the car
-    # moves out of the wall, at inward_mps. Its acceleration still points into the wall, so outwards
-    # it is -inward_mps2.
+    # moves out of the wall, at inward_mps. Time does not turn its acceleration round. But counted
+    # out of the wall, and no longer into it, this is -inward_mps2.
     late_s, met_mps = arrival(depth_m, inward_mps, -inward_mps2)  # 0.030 s, 2.41 m/s
     # Run it forwards again, from the wall, after the bounce, for the same time.
     new_depth_m, new_inward_mps = exact(0.0, -CR * met_mps, inward_mps2, late_s)
@@ -202,32 +205,33 @@ def rewind(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> 
 CORRECTIONS = {"none": none, "surface": surface, "rebound": rebound, "conserve": conserve,
                "rewind": rewind}
 
-# The sixth correction, replay, is in section 4. It settles a whole frame.
+# The sixth correction, replay, is in section 6. It settles a whole frame.
 ALL_CORRECTIONS = [*CORRECTIONS, "replay"]
 EXACT_ONLY = ["rewind", "replay"]  # they need the exact motion
 
-# ==== 3. The track and a frame ==================================================================
-# What does the physics need to know, and how does the car get from one frame to the next?
+# ==== 3. A frame ================================================================================
+# How does the car get from one frame to the next?
+
+def setting(default: Any, meaning: str, *allowed: Any) -> Any:
+    """A setting: its default, its meaning, and what it may be.
+
+    A number may be anything from allowed[0] to allowed[1], and the others are one of allowed. A
+    dataclass keeps them as the metadata of its fields. Section 10 reads them there.
+    """
+    return field(default=default, metadata={"meaning": meaning, "allowed": allowed})
 
 @dataclass(frozen=True)  # frozen: nothing can change it. replace() makes a changed copy.
 class Track:
-    """The track and its car: all that the physics needs to know.
+    """The track and its car: all that the physics needs to know."""
 
-    Raises ValueError if a setting is not allowed, or if two settings exclude each other.
-    """
-
-    x_m: float = 1.1  # the start of the car
-    v_mps: float = 0.0
-    a_mps2: float = 0.0
-    left_edge_m: float = 0.25  # the left wall
-    right_edge_m: float = 2.2  # the right wall
-    CR: float = 0.8
-    motion: str = "backward"
-    correction: str = "rebound"
-
-    def __post_init__(self) -> None:
-        """Refuse settings that are not allowed. Python calls this when a Track is made."""
-        check(self)  # see section 11
+    x_m: float = setting(1.1, "start position in m", -10_000, 10_000)
+    v_mps: float = setting(0.0, "start velocity in m/s: below 0 to the left", -10_000, 10_000)
+    a_mps2: float = setting(0.0, "acceleration in m/s^2: below 0 to the left", -10_000, 10_000)
+    left_edge_m: float = setting(0.25, "position of the left wall in m", -10_000, 10_000)
+    right_edge_m: float = setting(2.2, "position of the right wall in m", -10_000, 10_000)
+    CR: float = setting(0.8, "speed after a bounce / speed before it", 0, 1)
+    motion: str = setting("backward", "how the car is moved", *MOTIONS)
+    correction: str = setting("rebound", "how a collision is settled", *ALL_CORRECTIONS)
 
     def length_m(self) -> float:
         """The distance between the walls."""
@@ -257,7 +261,7 @@ def step(track: Track, x_m: float, v_mps: float, dt_s: float) -> Moved:
     mark_m is None or, in a collision, where the move alone ended. The film draws a 0 there.
     """
     if track.correction == "replay":
-        return replay(track, x_m, v_mps, dt_s)  # it works out the whole frame, see section 4
+        return replay(track, x_m, v_mps, dt_s)  # it works out the whole frame, see section 6
     # Move the car as if there were no walls.
     move = MOTIONS[track.motion]
     free_m, free_mps = move(x_m, v_mps, track.a_mps2, dt_s)
@@ -275,7 +279,279 @@ def step(track: Track, x_m: float, v_mps: float, dt_s: float) -> Moved:
     # Count from x = 0 and to the right again.
     return wall_m + sign * new_depth_m, sign * new_inward_mps, free_m
 
-# ==== 4. The truth ==============================================================================
+class Frame(NamedTuple):
+    """A car at the end of a frame. mark_m is that of step()."""
+
+    t_s: float
+    dt_s: float  # how much time has passed in this frame
+    x_m: float
+    v_mps: float
+    mark_m: float | None
+
+class Car:
+    """A car on a track. It keeps its frames, so that one can tell later what happened."""
+
+    def __init__(self, track: Track) -> None:
+        self.track = track
+        self.frames = [Frame(0.0, 0.0, track.x_m, track.v_mps, None)]  # the start
+
+    def move(self, dt_s: float) -> None:
+        """Make a frame of dt_s, and keep it."""
+        last = self.frames[-1]
+        x_m, v_mps, mark_m = step(self.track, last.x_m, last.v_mps, dt_s)
+        self.frames.append(Frame(last.t_s + dt_s, dt_s, x_m, v_mps, mark_m))
+
+    def times_s(self) -> list[float]:
+        """When each of its frames ended."""
+        return [frame.t_s for frame in self.frames]
+
+    def states(self) -> list[State]:
+        """Its place and its velocity in each of its frames."""
+        return [(frame.x_m, frame.v_mps) for frame in self.frames]
+
+# ==== 4. Drawing ================================================================================
+# How does a frame become a line of text, and why text?
+#
+# Nothing stands between the physics and the eye. Take a place in m, count it from the left edge of
+# the picture, multiply it by m_to_px, and round it: this is a column of the line. And each line
+# stays where it was printed, below the line before it. So the film on the screen is the graph of
+# the motion.
+
+@dataclass(frozen=True)
+class Scene:
+    """A track, and how it is filmed."""
+
+    track: Track = Track()
+    fps_target: float = setting(30.0, "frames a second, 1/dt", 0.1, 1000)
+    use_observed_dt: bool = setting(False, "dt is how long the frame lasted", False, True)
+    jitter: float = setting(0.0, "frames vary by up to this part", 0, 0.9)
+    auto_off: bool = setting(True, "stop when the car is at rest", False, True)
+    m_to_px: float = setting(55.0, "zoom in columns for each m", 0.0001, 1000)
+    width_px: int = setting(135, "width of the picture in columns", 10, 1000)
+    show_start_mark: bool = setting(False, "draw a . at the start", False, True)
+    show_collision_mark: bool = setting(True, "draw a 0 where a move ended", False, True)
+    show_exact_mark: bool = setting(False, "draw an o for the true car", False, True)
+    show_methods: bool = setting(False, "draw a to e for five methods", False, True)
+
+    def column_m(self) -> float:
+        """How wide a column of the film is."""
+        return 1 / self.m_to_px
+
+def render_track(scene: Scene, places_m: dict[str, float], mark_m: float | None) -> str:
+    """Draw a frame: one line of scene.width_px columns. places_m has the cars by their marks.
+
+    The line is painted from back to front: what is painted later covers what was there. The cars
+    are in this order, too. So the car itself, *, is the last of them, and nothing hides it.
+    """
+    track = scene.track
+    marks = []
+    if scene.show_collision_mark and mark_m is not None:
+        marks.append(("0", mark_m))
+    if scene.show_start_mark:
+        marks.append((".", track.x_m))
+    marks.append(("|", track.left_edge_m))
+    marks.append(("|", track.right_edge_m))
+    marks.extend(places_m.items())
+    line = [" "] * scene.width_px
+    first_m = min(0.0, track.left_edge_m)  # the picture begins at 0 or, further left, at the wall
+    for mark, x_m in marks:
+        column = round((x_m - first_m) * scene.m_to_px)
+        if 0 <= column < scene.width_px:
+            line[column] = mark
+        elif mark == "*" and column < 0:
+            line[0] = "<"  # it is out of the picture, on the left
+        elif mark == "*":
+            line[-1] = ">"
+    return "".join(line)
+
+def details_text(x_m: float, v_mps: float, fps: float, true_m: float | None) -> str:
+    """What d adds to a line: position, velocity, frame rate and, given the truth, the error."""
+    text = f"x = {x_m:6.2f}, v = {v_mps:5.2f}, FPS = {fps:3.0f}"
+    if true_m is None:
+        return text
+    return f"{text}, err = {x_m - true_m:9.2e}"
+
+# A terminal changes its colour where it reads "\033[" and a number and "m". 0 ends the colour.
+COLOURED_MARKS = str.maketrans({
+    "*": "\033[33m*\033[0m",  # yellow
+    "+": "\033[36m+\033[0m",  # cyan
+    "o": "\033[32mo\033[0m",  # green
+    "0": "\033[31m0\033[0m",  # red
+})
+
+class View(NamedTuple):
+    """How the lines of a film look. In a narrow terminal its scene is smaller than the film's."""
+
+    scene: Scene
+    has_details: bool
+    has_colours: bool
+
+    def line(self, cars: dict[str, Car], fps: float) -> str:
+        """The newest frame of the cars, as it is printed."""
+        places_m = {mark: car.frames[-1].x_m for mark, car in cars.items()}
+        frame = cars["*"].frames[-1]
+        text = render_track(self.scene, places_m, frame.mark_m)
+        if self.has_colours:
+            text = text.translate(COLOURED_MARKS)
+        if self.has_details:
+            text += details_text(frame.x_m, frame.v_mps, fps, places_m.get("o"))
+        return text
+
+# ==== 5. The main loop ==========================================================================
+# When is a film over, how does it keep its speed, and what happens in each frame? The main loop,
+# run(), stands at the end of this section.
+
+REST_S = 0.3  # long enough to be seen
+REST_FRAMES = 10  # at a low frame rate 0.3 s may be a single frame
+ROUND_OFF_S = 1e-9  # times are sums of many dt, so the last digits are not to be trusted
+
+class Rest:
+    """Watches a car, and knows since when it is at rest.
+
+    In most films the rule is: for 0.3 s and ten frames the car has been on the track and at most
+    3 mm above its floor. The 3 mm are a 650th of the height that the car can reach. If half a
+    column of the film is less, the car must be as low as that. If the acceleration is small, 0.3 s
+    are too short: a car that only passes by must be gone before the time is over. So the time is at
+    least that of a hop which is as high as this. Without an acceleration there is no floor. Then
+    the car is at rest if it stands still on the track.
+    """
+
+    def __init__(self, track: Track, column_m: float) -> None:
+        self.track = track
+        g_mps2 = abs(track.a_mps2)
+        reach_m = track.length_m()
+        energy = track.energy(track.to_track(track.x_m), track.v_mps)
+        if energy > 0 and g_mps2 > 0:
+            reach_m = min(reach_m, energy / g_mps2)  # from E = g * height
+        self.low_m = min(reach_m / 650, column_m / 2)
+        self.needed_s = REST_S
+        if g_mps2 > 0:
+            # Half of the hop is a fall from its top: low = g (hop/2)^2/2.
+            hop_s = 2 * math.sqrt(2 * self.low_m / g_mps2)
+            self.needed_s = max(REST_S, hop_s)
+        self.began_s = 0.0  # since when it lies, if it does
+        self.frames = 0  # for how many frames it has been lying
+
+    def look(self, t_s: float, x_m: float, v_mps: float) -> bool:
+        """Look at the car in one frame after the other. Returns whether it is at rest now."""
+        if self.track.a_mps2 == 0:
+            is_low = v_mps == 0
+        else:
+            is_low = abs(x_m - self.track.floor_m()) <= self.low_m
+        if not is_low or not self.track.has_on_it(x_m):
+            self.frames = 0
+            return False
+        if self.frames == 0:
+            self.began_s = t_s
+        self.frames += 1
+        lay_s = t_s - self.began_s
+        return self.frames >= REST_FRAMES and lay_s >= self.needed_s - ROUND_OFF_S
+
+def rest_began_s(track: Track, times_s: list[float], states: list[State],
+                 column_m: float) -> float | None:
+    """Since when a car with these states at these times is at rest, or None if it is not."""
+    rest = Rest(track, column_m)
+    is_at_rest = False
+    for t_s, (x_m, v_mps) in zip(times_s, states, strict=True):
+        is_at_rest = rest.look(t_s, x_m, v_mps)
+    return rest.began_s if is_at_rest else None
+
+def planned_length(scene: Scene, frame: int) -> float:
+    """How long this frame should last, in s. With jitter, frames are irregular in a fixed way."""
+    # The multiples of 0.618 (the golden ratio - 1) without their whole parts are spread evenly
+    # over the numbers from 0 to 1.
+    from_0_to_1 = (0.618 * frame) % 1
+    from_minus_1_to_1 = 2 * from_0_to_1 - 1
+    return (1 + scene.jitter * from_minus_1_to_1) / scene.fps_target
+
+def planned_dt(scene: Scene, frame: int) -> float:
+    """How much time should pass for the car in this frame."""
+    if scene.use_observed_dt:
+        return planned_length(scene, frame)
+    return 1 / scene.fps_target
+
+STALL_S = 0.15  # a delay that everybody sees: people begin to notice one at about 0.1 s
+
+class Pace:
+    """Makes a film keep its speed: it knows when each frame is due.
+
+    The frames are due at planned moments. If each frame slept for dt instead, it would last longer
+    than dt, because computing and printing take time, too.
+    """
+
+    def __init__(self, scene: Scene, keys: Keys | None) -> None:
+        self.scene = scene
+        self.keys = keys
+        # Begin as if the time of frame 1 had just passed. So frame 1 is due now.
+        self.shown_s = time.perf_counter() - planned_length(scene, 1)
+        self.due_s = self.shown_s
+
+    def wait(self, frame: int, text: str) -> float | None:
+        """Wait until this frame is due. Returns how long it has lasted, in s.
+
+        Returns None where the clock does not tell that: after a pause, in which text was shown, and
+        without keys (--fast), where it does not wait.
+        """
+        if self.keys is None:
+            return None
+        self.due_s += planned_length(self.scene, frame)
+        was_timed = self.keys.wait_for_frame(self.due_s, text)
+        now_s = time.perf_counter()
+        lasted_s = now_s - self.shown_s
+        self.shown_s = now_s
+        # After a pause, or if the film is far behind its plan, the plan begins anew from now.
+        # Otherwise the film would race to catch up.
+        if not was_timed or now_s > self.due_s + STALL_S:
+            self.due_s = now_s
+        return lasted_s if was_timed else None
+
+def dt_and_rate(scene: Scene, frame: int, lasted_s: float | None) -> tuple[float, float]:
+    """How much time passes for the car in this frame, and the frame rate that d shows.
+
+    lasted_s is how long the frame has lasted by the clock, or None if the clock does not tell.
+    """
+    dt_s = planned_dt(scene, frame)
+    if lasted_s is None:
+        return dt_s, scene.fps_target
+    # A frame with a stall counts as long as planned. Otherwise the car would leap.
+    if scene.use_observed_dt and lasted_s <= planned_length(scene, frame) + STALL_S:
+        dt_s = lasted_s
+    return dt_s, 1 / max(lasted_s, 1e-6)  # the clock may not have ticked in between
+
+def run(cars: dict[str, Car], scene: Scene, view: View, max_frames: int,
+        keys: Keys | None) -> None:
+    """Show the film until a key, the car at rest or max_frames ends it, and say which it was.
+
+    cars has the cars by their marks, from back to front. Without keys (--fast) nothing waits.
+    """
+    car = cars["*"]
+    rest = Rest(car.track, scene.column_m())
+    rest.look(0.0, car.track.x_m, car.track.v_mps)
+    pace = Pace(scene, keys)
+    t_s = 0.0
+    why = "that is the frame limit"
+    for frame in range(1, max_frames + 1):
+        # Wait until the frame is due. A key may end the film meanwhile.
+        lasted_s = pace.wait(
+            frame, f"paused after frame {frame - 1}, t = {t_s:.2f} s: p resumes, s steps, x quits")
+        if keys is not None and keys.why_quit:
+            why = keys.why_quit
+            break
+        # Move the cars, and settle their collisions.
+        dt_s, fps = dt_and_rate(scene, frame, lasted_s)
+        for each in cars.values():
+            each.move(dt_s)
+        # Draw the frame.
+        print(view.line(cars, fps))
+        # Is it over?
+        t_s = car.frames[-1].t_s
+        is_at_rest = rest.look(t_s, car.frames[-1].x_m, car.frames[-1].v_mps)
+        if scene.auto_off and is_at_rest:
+            why = "the car is at rest"
+            break
+    print(f"Stopped after {len(car.frames) - 1} frames, t = {t_s:.2f} s: {why}.", flush=True)
+
+# ==== 6. The truth ==============================================================================
 # What would the car really do? And which method should I take?
 #
 # The correction replay knows the truth, for a frame of any length: one step() of 20 s with
@@ -290,10 +566,10 @@ def step(track: Track, x_m: float, v_mps: float, dt_s: float) -> Moved:
 # meet the ceiling. So infinitely many hops take a finite time: if the first hop lasts 1 s, all of
 # them last 1 + CR + CR^2 + ... seconds, and this sum is 1/(1 - CR). The moment at which they end is
 # called the Zeno point. From then on the ball lies still. Nobody can follow infinitely many hops
-# one by one. So a ball that would rise less than GRAZE_M lies still here. After a drop from 2 m
-# this is at bounce 55 if CR is 0.8, and at bounce 605 if CR is 0.98.
+# one by one. So a ball that would rise less than GRAZE of the room lies still here. After a drop
+# from 2 m on the lesson's track this is at bounce 55 if CR is 0.8, and at bounce 605 if CR is 0.98.
 
-GRAZE_M = 5e-11  # far more than the round-off of a position, and less than an atom's width
+GRAZE = 2.5e-11  # on the lesson's track 5e-11 m: far more than round-off, less than an atom's width
 
 def next_bounce(h_m: float, rise_mps: float, g_mps2: float,
                 room_m: float) -> tuple[str, float, float]:
@@ -303,8 +579,8 @@ def next_bounce(h_m: float, rise_mps: float, g_mps2: float,
     """
     # To rise to the ceiling takes the energy g * (room - h). A ball may touch the ceiling at almost
     # no speed, and then round-off would decide whether it does. So a ball that would turn back less
-    # than GRAZE_M beyond the ceiling does not meet it.
-    energy_to_meet_it = g_mps2 * (room_m - h_m + GRAZE_M)
+    # than GRAZE of the room beyond the ceiling does not meet it.
+    energy_to_meet_it = g_mps2 * (room_m - h_m + GRAZE * room_m)
     if rise_mps > 0 and rise_mps * rise_mps / 2 >= energy_to_meet_it:
         flight_s, speed_mps = arrival(room_m - h_m, rise_mps, -g_mps2)
         return "ceiling", flight_s, speed_mps
@@ -330,8 +606,8 @@ def follow(h_m: float, rise_mps: float, g_mps2: float, room_m: float, CR: float,
             h_m, rise_mps = room_m, -CR * speed_mps
             continue
         h_m, rise_mps = 0.0, CR * speed_mps
-        if rise_mps * rise_mps / 2 <= g_mps2 * GRAZE_M:
-            return 0.0, 0.0, True  # it lies still, as it cannot rise by GRAZE_M
+        if rise_mps * rise_mps / 2 <= g_mps2 * GRAZE * room_m:
+            return 0.0, 0.0, True  # it lies still, as it cannot rise by GRAZE of the room
         if CR == 1 and has_met_floor:
             # The ball needed since_floor_s from floor to floor. At CR = 1 it will need as long
             # again and again. Leave out all whole periods: a division leaves the remainder.
@@ -367,46 +643,6 @@ def truth_of(track: Track) -> Track:
     """The same track, solved exactly. A start beyond a wall is moved to the wall."""
     return replace(track, motion="exact", correction="replay", x_m=track.to_track(track.x_m))
 
-class Frame(NamedTuple):
-    """A car and its true car at the end of a frame. mark_m is that of step()."""
-
-    t_s: float
-    x_m: float
-    v_mps: float
-    mark_m: float | None
-    true_m: float
-    true_mps: float
-
-    def error_m(self) -> float:
-        """How far the car is from the true car."""
-        return abs(self.x_m - self.true_m)
-
-class Car:
-    """A car on a track, and beside it its true car. It keeps its frames for film, chart and map."""
-
-    def __init__(self, track: Track) -> None:
-        self.track = track
-        self.truth = truth_of(track)
-        self.frames = [Frame(0.0, track.x_m, track.v_mps, None, self.truth.x_m, self.truth.v_mps)]
-
-    def start_later(self, by_s: float) -> None:
-        """Start where the true car is after this time, and count the time from there."""
-        x_m, v_mps, _ = step(self.truth, self.truth.x_m, self.truth.v_mps, by_s)
-        self.frames = [Frame(0.0, x_m, v_mps, None, x_m, v_mps)]
-
-    def move(self, dt_s: float, count: int = 1) -> None:
-        """Make so many frames of dt_s, and keep the last of them. (The map does not need them all.)
-
-        The true car makes one long step.
-        """
-        last = self.frames[-1]
-        x_m, v_mps, mark_m = last.x_m, last.v_mps, last.mark_m
-        for _ in range(count):
-            x_m, v_mps, mark_m = step(self.track, x_m, v_mps, dt_s)
-        moved_s = count * dt_s
-        true_m, true_mps, _ = step(self.truth, last.true_m, last.true_mps, moved_s)
-        self.frames.append(Frame(last.t_s + moved_s, x_m, v_mps, mark_m, true_m, true_mps))
-
 # Which method should I take? A method is a motion and a correction. Of the fourteen possible ones,
 # example 21 and the chart compare five.
 #
@@ -418,10 +654,11 @@ class Car:
 #     e  exact + replay      right        none                        the truth
 #
 # The table is for a car that bounces on its floor. Order 1 means that frames of half the length
-# make half the error, and order 2 that they make a quarter. Method d is right while each frame
-# holds at most one bounce, and the move of a frame with a bounce ends beyond the wall. But at
-# CR < 1 the last frames before the Zeno point hold several bounces. Without an acceleration, and in
-# short frames, a, b, d and e have no error, and c has one of order 1.
+# make half the error, and order 2 that they make a quarter. What is said of d holds while each
+# frame has at most one bounce, and the move of a frame with a bounce ends beyond the wall. But at
+# CR < 1 the last frames before the Zeno point have several bounces. There d gets a little too much
+# energy, and this makes the error of order 2. Without an acceleration, and in short frames, a, b, d
+# and e have no error, and c has one of order 1.
 #
 # Methods a to d need short frames, because they look only at the end of a frame, and settle one
 # bounce there. They miss a bounce if the car is back on the track when the frame ends (example 18).
@@ -429,96 +666,33 @@ class Car:
 # e never do. Method e is right in frames of any length. Why not always take e? It needs a constant
 # acceleration, as b to d do. And it needs to know all walls at once, to find the next bounce. The
 # others settle only the wall that a move has met.
-METHODS = {"a": ("backward", "rebound"), "b": ("exact", "rebound"), "c": ("exact", "conserve"),
-           "d": ("exact", "rewind"), "e": ("exact", "replay")}
+METHODS: dict[str, dict[str, Any]] = {
+    "a": {"motion": "backward", "correction": "rebound"},
+    "b": {"motion": "exact", "correction": "rebound"},
+    "c": {"motion": "exact", "correction": "conserve"},
+    "d": {"motion": "exact", "correction": "rewind"},
+    "e": {"motion": "exact", "correction": "replay"},
+}
 
-def method_text(motion: str, correction: str) -> str:
-    """A method in words, as in backward + rebound."""
-    return f"{motion} + {correction}"
+THE_TRUTH = "e"  # the true car is moved by this method
 
-LEGEND = [f"{letter}: {method_text(*method)}" for letter, method in METHODS.items()]
+def by_five_methods(track: Track) -> dict[str, Track]:
+    """The track with each of the five methods, by their letters. All start on the track."""
+    track = replace(track, x_m=track.to_track(track.x_m))
+    return {letter: replace(track, **method) for letter, method in METHODS.items()}
 
-# ==== 5. Drawing ================================================================================
-# How does a frame become a line of text?
+def method_text(track: Track) -> str:
+    """The method in words, as in backward + rebound."""
+    return f"{track.motion} + {track.correction}"
 
-@dataclass(frozen=True)
-class Scene(Track):
-    """A track, and how it is filmed. (SETTINGS in section 11 says what each setting means.)"""
+LEGEND = {letter: f"{letter}: {method_text(track)}"
+          for letter, track in by_five_methods(Track()).items()}
 
-    fps_target: float = 30.0
-    use_observed_dt: bool = False
-    jitter: float = 0.0
-    auto_off: bool = True
-    m_to_px: float = 55.0
-    width_px: int = 135
-    show_start_mark: bool = False
-    show_collision_mark: bool = True
-    show_exact_mark: bool = False
-    show_methods: bool = False
+# ==== 7. The chart: speed against accuracy ======================================================
+# What does each method cost, and how wrong is it?
 
-def render_track(scene: Scene, places_m: dict[str, float], mark_m: float | None) -> str:
-    """Draw a frame: one line of scene.width_px columns. places_m has the cars by their marks.
-
-    The line is painted from back to front: what is painted later covers what was there. The cars
-    are in this order, too. So the car itself, *, is the last of them, and nothing hides it.
-    """
-    marks = []
-    if scene.show_collision_mark and mark_m is not None:
-        marks.append(("0", mark_m))
-    if scene.show_start_mark:
-        marks.append((".", scene.x_m))
-    marks.append(("|", scene.left_edge_m))
-    marks.append(("|", scene.right_edge_m))
-    marks.extend(places_m.items())
-    line = [" "] * scene.width_px
-    first_m = min(0.0, scene.left_edge_m)  # the picture begins at 0 or, further left, at the wall
-    for mark, x_m in marks:
-        column = round((x_m - first_m) * scene.m_to_px)
-        if 0 <= column < scene.width_px:
-            line[column] = mark
-        elif mark == "*" and column < 0:
-            line[0] = "<"  # it is out of the picture, on the left
-        elif mark == "*":
-            line[-1] = ">"
-    return "".join(line)
-
-# A terminal changes its colour where it reads "\033[" and a number and "m". 0 ends the colour.
-COLOURED_MARKS = str.maketrans({
-    "*": "\033[33m*\033[0m",  # yellow
-    "+": "\033[36m+\033[0m",  # cyan
-    "o": "\033[32mo\033[0m",  # green
-    "0": "\033[31m0\033[0m",  # red
-})
-
-def details_text(x_m: float, v_mps: float, fps: float, true_m: float | None) -> str:
-    """What d adds to a line: position, velocity, frame rate and, given the truth, the error."""
-    text = f"x = {x_m:6.2f}, v = {v_mps:5.2f}, FPS = {fps:3.0f}"
-    if true_m is None:
-        return text
-    return f"{text}, err = {x_m - true_m:9.2e}"
-
-def scene_of(settings: dict[str, Any]) -> Scene:
-    """The scene with these settings. Raises ValueError."""
-    scene = Scene(**settings)
-    if "m_to_px" in settings:
-        return scene
-    # Nobody chose a zoom: take one that shows the right wall.
-    shown_m = scene.right_edge_m - min(0.0, scene.left_edge_m)
-    return replace(scene, m_to_px=min(scene.m_to_px, (scene.width_px - 1) / shown_m))
-
-def fitted(scene: Scene, has_details: bool) -> Scene:
-    """The scene, drawn smaller if its lines are wider than the terminal."""
-    columns = shutil.get_terminal_size().columns
-    if has_details:
-        true_m = 0.0 if scene.show_exact_mark else None
-        longest = details_text(-1000, -1000, scene.fps_target, true_m)
-        columns -= len(longest)
-    columns = max(columns, 10)  # the least that a scene may have
-    if columns >= scene.width_px or not sys.stdout.isatty():
-        return scene
-    # What was in the last column must stay in the last column. The first column has number 0.
-    m_to_px = scene.m_to_px * (columns - 1) / (scene.width_px - 1)
-    return replace(scene, width_px=columns, m_to_px=max(m_to_px, 0.001))
+SPAN_S = 20  # of simulated time: about eight bounces in example 10, enough for errors to grow
+CUTS = 10  # runs of each method: with fewer, the largest error would depend on luck
 
 PYTHON = os.path.basename(sys.executable).removesuffix(".exe")  # what runs this: python3, say
 
@@ -533,753 +707,616 @@ def track_text(track: Track) -> str:
             f"CR={track.CR:.10g}, walls at {track.left_edge_m:.10g} and "
             f"{track.right_edge_m:.10g} m")
 
-# ==== 6. The run ================================================================================
-# How do the frames become a film that runs at the right speed, and when does it end? The main loop
-# is run(), at the end of this section.
+class Record(NamedTuple):
+    """What a car did and, beside it, what its true car did in the same frames."""
 
-def planned_length(scene: Scene, frame: int) -> float:
-    """How long this frame should last, in s. With jitter, frames are irregular in a fixed way."""
-    # The multiples of 0.618 (the golden ratio - 1) without their whole parts are spread evenly
-    # over the numbers from 0 to 1.
-    from_0_to_1 = (0.618 * frame) % 1
-    from_minus_1_to_1 = 2 * from_0_to_1 - 1
-    return (1 + scene.jitter * from_minus_1_to_1) / scene.fps_target
+    track: Track  # of the car
+    times_s: list[float]
+    states: list[State]
+    true_states: list[State]
 
-STALL_S = 0.15  # a delay that everybody sees: people begin to notice one at about 0.1 s
+    def furthest_m(self) -> float:
+        """How far the car was at most from its true car."""
+        furthest_m = 0.0
+        for (x_m, _), (true_m, _) in zip(self.states, self.true_states, strict=True):
+            furthest_m = max(furthest_m, abs(x_m - true_m))
+        return furthest_m
 
-def paced(scene: Scene, keys: Keys | NoKeys, max_frames: int) -> Iterator[tuple[float, float]]:
-    """Wait until each frame is due, and give its dt_s and its frame rate.
+    def first(self, frames: int) -> "Record":
+        """Only so many of its frames."""
+        return Record(self.track, self.times_s[:frames], self.states[:frames],
+                      self.true_states[:frames])
 
-    This is a generator: run() loops over it, and each yield gives the loop the next frame.
+def simulate(track: Track, x_m: float, v_mps: float, lengths_s: list[float]) -> list[State]:
+    """The place and the velocity at the start, and after each frame of these lengths."""
+    states = [(x_m, v_mps)]
+    for dt_s in lengths_s:
+        x_m, v_mps, _ = step(track, x_m, v_mps, dt_s)
+        states.append((x_m, v_mps))
+    return states
 
-    The frames are due at planned moments. If each frame slept for dt instead, it would last longer
-    than dt, because computing and printing take time, too.
+def equal_frames(fps: int) -> list[float]:
+    """The lengths of all frames in SPAN_S."""
+    return [1 / fps] * (SPAN_S * fps)
+
+def ten_true_runs(track: Track, fps: int) -> list[list[State]]:
+    """The true car in ten cuts of its motion into frames. All methods are compared with them.
+
+    It is luck at which moment of a frame the car meets a wall. Cut 0 begins at the start. Each
+    other cut begins a part of a frame later, at the true state of that moment.
     """
-    # Begin as if the time of frame 1 had just passed. So frame 1 is due now.
-    shown_s = time.perf_counter() - planned_length(scene, 1)
-    due_s = shown_s
-    t_s = 0.0
-    for frame in range(1, max_frames + 1):
-        planned_s = planned_length(scene, frame)
-        due_s += planned_s
-        was_timed = keys.wait_until(due_s, frame - 1, t_s)  # False after a pause
-        if keys.why_quit:
-            return
-        now_s = time.perf_counter()
-        lasted_s = now_s - shown_s
-        shown_s = now_s
-        fps = scene.fps_target
-        if was_timed:
-            fps = 1 / max(lasted_s, 1e-6)  # the clock may not have ticked in between
-        # After a pause, or if the film is far behind its plan, the plan begins anew from now.
-        # Otherwise the film would race to catch up.
-        if not was_timed or now_s > due_s + STALL_S:
-            due_s = now_s
-        # A frame with a pause or a stall counts as long as planned. Otherwise the car would leap.
-        if not scene.use_observed_dt:
-            dt_s = 1 / scene.fps_target
-        elif was_timed and lasted_s <= planned_s + STALL_S:
-            dt_s = lasted_s
-        else:
-            dt_s = planned_s
-        t_s += dt_s
-        yield dt_s, fps
-
-REST_M = 0.003  # too low to be seen in most films
-MOST_REST_M = 0.05  # at 10 FPS and 9.81 m/s^2 the speed a * dt lets a car rise 4.9 cm
-REST_S = 0.3  # long enough to be seen
-REST_FRAMES = 10  # at a low frame rate 0.3 s may be a single frame
-
-def rest_began_s(car: Car) -> float | None:
-    """Since when the car is at rest, or None if it is not.
-
-    A car is at rest if in each frame, for 0.3 s and ten frames, it is on the track, and its energy
-    is too small to rise 3 mm above its floor. With some methods a car that lies keeps a speed of
-    up to a * dt. This speed would let it rise |a| * dt^2/2. So this height is allowed, too, but no
-    more than 5 cm in all. (Without an acceleration the speed must be 0.)
-    """
-    track = car.track
-    g_mps2 = abs(track.a_mps2)
-    now_s = began_s = car.frames[-1].t_s
-    quiet_frames = 0
-    for frame, frame_before in pairwise(reversed(car.frames)):  # from the last frame back
-        dt_s = frame.t_s - frame_before.t_s
-        most_m = min(REST_M + g_mps2 * dt_s * dt_s / 2, MOST_REST_M)
-        energy = track.energy(frame.x_m, frame.v_mps)
-        if energy > g_mps2 * most_m or not track.has_on_it(frame.x_m):
-            break
-        began_s = frame.t_s
-        quiet_frames += 1
-    # From the end of the first quiet frame to the end of the tenth are nine frames. At 30 FPS this
-    # is 0.3 s, but for round-off.
-    lasted_s = now_s - began_s + 1e-9
-    if quiet_frames < REST_FRAMES or lasted_s < REST_S:
-        return None
-    return began_s
-
-def cars_of(scene: Scene, unchanged: Scene | None) -> dict[str, Car]:
-    """All cars that a film draws, by their marks, from back to front.
-
-    unchanged is the example as it is, if the film shows a + for it.
-    """
-    cars = {}
-    if scene.show_methods:
-        start_m = scene.to_track(scene.x_m)  # d and e need a start on the track
-        for letter, (motion, correction) in METHODS.items():
-            cars[letter] = Car(replace(scene, x_m=start_m, motion=motion, correction=correction))
-    if scene.show_exact_mark:
-        cars["o"] = Car(truth_of(scene))
-    if unchanged is not None:
-        cars["+"] = Car(unchanged)
-    cars["*"] = Car(scene)
-    return cars
-
-def run(cars: dict[str, Car], scene: Scene, view: Scene, has_details: bool, max_frames: int,
-        keys: Keys | NoKeys) -> None:
-    """Show the film until a key, the car at rest or max_frames ends it, and say which it was.
-
-    view is the scene as it is drawn: in a narrow terminal it is smaller.
-    """
-    car = cars["*"]
-    why = "that is the frame limit"
-    for dt_s, fps in paced(scene, keys, max_frames):
-        # Move the cars, and settle their collisions.
-        for each in cars.values():
-            each.move(dt_s)
-        # Draw the frame.
-        places_m = {mark: each.frames[-1].x_m for mark, each in cars.items()}
-        now = car.frames[-1]
-        line = render_track(view, places_m, now.mark_m)
-        if keys.has_colours:
-            line = line.translate(COLOURED_MARKS)
-        if has_details:
-            line += details_text(now.x_m, now.v_mps, fps, places_m.get("o"))
-        print(line)
-        # Is it over?
-        if scene.auto_off and rest_began_s(car) is not None:
-            why = "the car is at rest"
-            break
-    if keys.why_quit:
-        why = keys.why_quit
-    frames, t_s = len(car.frames) - 1, car.frames[-1].t_s
-    print(f"Stopped after {frames} frames, t = {t_s:.2f} s: {why}.", flush=True)
-
-# ==== 7. The chart: speed against accuracy ======================================================
-# What does each method cost, and how wrong is it? A column of the film is 1/m_to_px wide, in m.
-
-SPAN_S = 20  # of simulated time: about eight bounces in example 10, enough for errors to grow
-CUTS = 10  # runs of each method: with fewer, the largest error would depend on luck
-CHART_FPS = [10, 30, 60, 120, 240, 480, 960]
-
-def simulate(track: Track, fps: int, cut: int, count: int) -> list[Frame]:
-    """Run for SPAN_S, and keep each count-th frame.
-
-    It is luck at which moment of a frame the car meets a wall. So there are ten cuts of the same
-    motion into frames. Cut 0 begins at the start of the scene. Each other cut begins a part of a
-    frame later, at the true state of that moment.
-    """
-    car = Car(track)
-    # The parts are elevenths, and not a half or a fifth, where round settings are a special case.
-    car.start_later(cut / (CUTS + 1) / fps)
-    for _ in range(SPAN_S * fps // count):
-        car.move(1 / fps, count)
-    return car.frames
-
-def largest_error_m(track: Track, fps: int) -> float:
-    """The largest distance from the true car in all frames of all cuts."""
-    largest_m = 0.0
+    truth = truth_of(track)
+    runs = []
     for cut in range(CUTS):
-        for frame in simulate(track, fps, cut, 1):
-            largest_m = max(largest_m, frame.error_m())
-    return largest_m
+        # The parts are elevenths. At a half or a fifth round settings would be a special case.
+        later_s = cut / (CUTS + 1) / fps
+        x_m, v_mps, _ = step(truth, truth.x_m, truth.v_mps, later_s)
+        runs.append(simulate(truth, x_m, v_mps, equal_frames(fps)))
+    return runs
 
-def cost_us(track: Track, fps: int) -> float:
-    """How long the steps of a simulated second take, in microseconds.
+def ten_records(track: Track, fps: int, true_runs: list[list[State]]) -> list[Record]:
+    """The car in ten runs, each from the start of a true run, and in the same frames."""
+    times_s = [frame / fps for frame in range(SPAN_S * fps + 1)]
+    records = []
+    for true_states in true_runs:
+        x_m, v_mps = true_states[0]
+        states = simulate(track, x_m, v_mps, equal_frames(fps))
+        records.append(Record(track, times_s, states, true_states))
+    return records
 
-    Other programs may slow this one. So the least of several runs is nearest to the time that the
-    steps themselves need.
+def costs_us(tracks: dict[str, Track], fps: int) -> dict[str, float]:
+    """How long the steps of a simulated second take with each method, in microseconds.
+
+    Other programs may slow this one. So the methods take turns, and the least of several runs is
+    nearest to the time that the steps themselves need.
     """
-    dt_s = 1 / fps
-    costs_s = []
-    runs = max(5, 200 // fps)  # at a low rate a run is short, so one disturbance may spoil it
-    for _ in range(runs):
-        x_m, v_mps = track.x_m, track.v_mps
-        began_s = time.perf_counter()
-        for _ in range(SPAN_S * fps):
-            x_m, v_mps, _ = step(track, x_m, v_mps, dt_s)
-        costs_s.append(time.perf_counter() - began_s)
-    return 1e6 * min(costs_s) / SPAN_S
+    costs = dict.fromkeys(tracks, math.inf)
+    for _ in range(max(10, 600 // fps)):  # at a low rate a run is short, so make more of them
+        for letter, track in tracks.items():
+            x_m, v_mps = track.x_m, track.v_mps
+            began_s = time.perf_counter()
+            for _ in range(SPAN_S * fps):  # the bare steps: keeping the states would cost, too
+                x_m, v_mps, _ = step(track, x_m, v_mps, 1 / fps)
+            cost_us = 1e6 * (time.perf_counter() - began_s) / SPAN_S
+            costs[letter] = min(costs[letter], cost_us)
+    return costs
 
 class Point(NamedTuple):
     """One method at one frame rate: a point of the chart."""
 
+    letter: str
     fps: int
-    error_m: float
+    error_m: float  # the largest in ten runs. For e it is 0: e is how the true car is moved.
     cost_us: float
 
-def measure(track: Track, fps: int) -> dict[str, Point]:
+def measured(track: Track, fps: int) -> list[Point]:
     """Measure each of the five methods at this rate."""
-    points = {}
-    for letter, (motion, correction) in METHODS.items():
-        method = replace(track, motion=motion, correction=correction)
-        points[letter] = Point(fps, largest_error_m(method, fps), cost_us(method, fps))
+    tracks = by_five_methods(track)
+    costs = costs_us(tracks, fps)
+    true_runs = ten_true_runs(track, fps)
+    points = []
+    for letter, method in tracks.items():
+        error_m = 0.0
+        if letter != THE_TRUTH:
+            records = ten_records(method, fps, true_runs)
+            error_m = max([record.furthest_m() for record in records])
+        points.append(Point(letter, fps, error_m, costs[letter]))
     return points
 
-ROUND_OFF_M = 1e-9  # smaller errors have no order
+CHART_FPS = [1, 2, 5, 10, 30, 60, 120, 240, 480, 960]
+GAME_FPS = 60  # most screens show so many frames a second
 
-def order_text(series: list[Point], track_m: float) -> str:
+def of_method(letter: str, points: list[Point]) -> list[Point]:
+    """The points of one method."""
+    return [point for point in points if point.letter == letter]
+
+def order_text(points: list[Point], track_m: float) -> str:
     """The order of a method: at order 1 twice the rate divides the error by 2, at order 2 by 4."""
-    if all(point.error_m < ROUND_OFF_M for point in series):
-        return "none"
     # Errors as large as the track tell nothing of the order. So take those below a tenth of it.
-    telling = [point for point in series if ROUND_OFF_M <= point.error_m < track_m / 10]
+    small = [point for point in points if point.error_m < track_m / 10]
+    # Round-off has no order. (5e-10 of the lesson's track is 1e-9 m.)
+    telling = [point for point in small if point.error_m >= 5e-10 * track_m]
+    if small and not telling:
+        return "none"
     if len(telling) < 3:
         return "?"  # too few for a straight line
-    # error = constant / rate^order. So in logarithms the order is the slope of a straight line.
+    # error = constant / rate^order. In logarithms this is a straight line, and it goes down: its
+    # slope is minus the order.
     rates = [math.log(point.fps) for point in telling]
     errors = [math.log(point.error_m) for point in telling]
     slope, _ = linear_regression(rates, errors)
     return f"{-slope:.1f}"
 
-COLUMNS_A_DECADE, ROWS_A_DECADE = 8, 4  # a decade is from one power of ten to the next
-LEAST_ERROR_M, LARGEST_ERROR_M = 1e-6, 10.0  # other errors are drawn at the edge of the picture
+def row_text(points: list[Point]) -> str:
+    """A row of the table: the points of one frame rate."""
+    row = f"{points[0].fps:4}"
+    for point in points:
+        error = f"{point.error_m:.1e}"
+        if point.letter == THE_TRUTH:
+            error = "-"
+        row += f"{error:>9}{point.cost_us:6.0f}"
+    return row
+
+DECADES = ["<=1 um", "10 um", "0.1 mm", "1 mm", "1 cm", "0.1 m", "1 m", ">=10 m"]
+LEAST_ERROR_M = 1e-6  # a decade is from one power of ten to the next, and here the first begins
+COLUMNS_A_DECADE, ROWS_A_DECADE = 8, 4
+LAST_COLUMN = COLUMNS_A_DECADE * (len(DECADES) - 1)
 
 def error_column(error_m: float) -> int:
-    """The column of an error in the picture."""
-    error_m = max(error_m, LEAST_ERROR_M)
-    error_m = min(error_m, LARGEST_ERROR_M)
-    return round(COLUMNS_A_DECADE * math.log10(error_m / LEAST_ERROR_M))
+    """The column of an error in the picture. What is too small or too large is at its edge."""
+    decades = math.log10(max(error_m, LEAST_ERROR_M) / LEAST_ERROR_M)
+    return min(round(COLUMNS_A_DECADE * decades), LAST_COLUMN)
 
-def print_table(track: Track) -> dict[str, list[Point]]:
-    """Print the table, row by row as it is measured. Returns the points of each method."""
-    motions = corrections = "    "
-    for letter, (motion, correction) in METHODS.items():
-        motions += f"{letter}: {motion}".rjust(15)
-        corrections += f"+ {correction}".rjust(15)
-    print()
-    print(motions)
-    print(corrections)
-    print(" FPS" + "  error m    us" * len(METHODS))
-    points: dict[str, list[Point]] = {letter: [] for letter in METHODS}
-    for fps in CHART_FPS:
-        row = f"{fps:4}"
-        for letter, point in measure(track, fps).items():
-            points[letter].append(point)
-            row += f"{point.error_m:9.1e}{point.cost_us:6.0f}"
-        print(row, flush=True)
-    row = "order"
-    for series in points.values():
-        row += order_text(series, track.length_m()).rjust(7) + " " * 8
-    print(row.rstrip())
-    print()
-    return points
-
-def print_picture(points: dict[str, list[Point]], column_m: float) -> None:
+def print_picture(points: list[Point], column_m: float) -> None:
     """Draw the points as the film is drawn: error to the right, cost downwards."""
     letters: dict[tuple[int, int], str] = {}  # by row and column
-    for letter, series in points.items():
-        for point in series:
-            row = round(ROWS_A_DECADE * math.log10(point.cost_us))
-            place = row, error_column(point.error_m)
-            if place in letters and letters[place] != letter:
-                letters[place] = "+"  # another letter stands there already
-            else:
-                letters[place] = letter
+    for point in points:
+        row = round(ROWS_A_DECADE * math.log10(point.cost_us))
+        place = row, error_column(point.error_m)
+        if letters.get(place, point.letter) == point.letter:
+            letters[place] = point.letter
+        else:
+            letters[place] = "+"  # another letter stands there already
     rows = [row for row, _ in letters]
     limit = error_column(column_m)
     print("a column of the film |".rjust(10 + limit + 1))
-    print("    us    <=1 um  10 um   0.1 mm  1 mm    1 cm    0.1 m   1 m     >=10 m")
+    print("    us    " + "".join([text.ljust(COLUMNS_A_DECADE) for text in DECADES]).rstrip())
     for row in range(min(rows), max(rows) + 1):
         line = f"{10 ** (row / ROWS_A_DECADE):6.0f}    "
-        for column in range(error_column(LARGEST_ERROR_M) + 1):
+        for column in range(LAST_COLUMN + 1):
             behind = "|" if column == limit else " "
             line += letters.get((row, column), behind)
         print(line.rstrip())
 
-def print_answer(points: dict[str, list[Point]], column_m: float) -> None:
-    """Answer the question: which methods stay within a column, and what do they cost?"""
-    answers = []
-    for letter, (motion, correction) in METHODS.items():
-        good = []
-        for point in reversed(points[letter]):  # from the highest rate down
-            if point.error_m > column_m:
-                break
-            good.append(point)
+def print_answers(points: list[Point], column_m: float) -> None:
+    """Which method is the cheapest that is good enough, and which is it at the rate of a game?"""
+    rows = []
+    for letter in METHODS:
+        series = of_method(letter, points)
+        # From the highest rate down, as long as the error is small enough.
+        good = list(takewhile(lambda point: point.error_m <= column_m, reversed(series)))
+        cheapest_us = math.inf
+        within = "at no rate"
         if good:
-            cheapest = good[-1]
-            text = f"  {letter}  {method_text(motion, correction):18}  "
-            text += f"from {cheapest.fps:4} FPS on  {cheapest.cost_us:5.0f} us"
-            answers.append((cheapest.cost_us, text))
-    answers.sort()  # by the cost, which stands first
-    say(f"These stay within a column of the film ({column_m:.2g} m) in all ten runs, "
-        "the cheapest first:")
-    for _, text in answers:
+            cheapest_us = good[-1].cost_us
+            within = f"from {good[-1].fps:4} FPS on: {cheapest_us:5.0f} us"
+        in_game, = [point for point in series if point.fps == GAME_FPS]
+        off = f"up to {in_game.error_m:.2g} m off"
+        if letter == THE_TRUTH:
+            off = "right by definition"
+        text = f"{LEGEND[letter]:22} {within:26} {in_game.cost_us:5.0f} us, {off}"
+        rows.append((cheapest_us, text))
+    print(f"{'':22} {'within a column':26} at {GAME_FPS} FPS, as in a game")
+    for _, text in sorted(rows):  # by the cost, which stands first
         print(text)
-    if not answers:
-        print("  none at these rates")
 
-def chart(scene: Scene, number: int) -> None:
-    """Measure, print the table, draw the picture and answer the question. number is the example."""
-    column_m = 1 / scene.m_to_px
-    say(f"Speed against accuracy. Scene {number}: {track_text(scene)}")
-    say("Which method is the cheapest that stays within a column of the film? Each method runs ten "
-        "times for 20 simulated seconds. Error: the largest distance from the true car. Cost: the "
-        "time that a simulated second takes, in us (microseconds). Order: 1 if half the dt makes "
-        "half the error, 2 if it makes a quarter, ? if fewer than three errors are more than "
-        "round-off and less than a tenth of the track, none if all errors are round-off. Method e "
-        "is how the true car is moved, so its error is 0.")
-    points = print_table(scene)
+def chart(scene: Scene, words: str) -> None:
+    """Measure, print table and picture, and answer the question. words asked for the scene."""
+    column_m = scene.column_m()
+    say(f"Speed against accuracy. Scene {words}: {track_text(scene.track)}")
+    say("Which method is the cheapest that stays within a column of the film? Each runs ten times "
+        "for 20 simulated seconds. Error: the largest distance from the true car. Cost: the time "
+        "that a simulated second takes, in us (microseconds). Order: 1 if half the dt makes half "
+        "the error, 2 if it makes a quarter. It is taken from the errors below a tenth of the "
+        "track: none if these are all round-off, ? if fewer than three are more than that. Method "
+        "e has no error, because the true car is moved by it.")
+    say(", ".join(LEGEND.values()))
+    print()
+    print(" " * 4 + "".join([letter.rjust(12) + "   " for letter in METHODS]).rstrip())
+    print(" FPS" + "  error m    us" * len(METHODS))
+    points = []
+    for fps in CHART_FPS:
+        row = measured(scene.track, fps)
+        print(row_text(row), flush=True)
+        points += row
+    orders = "order"
+    for letter in METHODS:
+        order = order_text(of_method(letter, points), scene.track.length_m())
+        if letter == THE_TRUTH:
+            order = "-"
+        orders += f"{order:>8}       "
+    print(orders.rstrip())
+    print()
     print_picture(points, column_m)
-    say(f"{', '.join(LEGEND)}. Error to the right, cost downwards: the best are in the upper left. "
-        "Where letters meet there is a +.")
-    print_answer(points, column_m)
-    say(f"Next: {PYTHON} airtrack.py stability {number}")
+    say("The best are in the upper left. Where letters meet there is a +. Now the answer. Within a "
+        f"column ({column_m:.2g} m) means: in all ten runs, at this rate and at each higher one.")
+    print_answers(points, column_m)
+    say("In a game one may still take c: it need not know the walls ahead, as e must, it comes to "
+        "rest at CR < 1, and it is never thrown out.")
+    print(f"Next: {PYTHON} airtrack.py stability {words}")
 
 # ==== 8. The map: where methods fail ============================================================
-# Which method fails at which frame rate, and how?
+# Which method fails at which frame rate, and how? The table after a film judges by the same rules.
 
-HOP_M = 0.001  # 1 mm: lower hops count as lying still
-MAP_FPS = [1, 2, 5, 10, 30, 60, 120, 240, 1000]
-VERDICTS = {  # from the worst to the best. W is not for one run, but for ten: see cell().
-    "X": "out: further beyond a wall than the track is long",
-    "S": "stuck: beyond the same wall all through the last 5 s",
-    "H": "hops or hovers, over 1 mm off in the last 5 s, where the true car lies still",
-    "W": "as G in some runs, as L in others",
-    "G": "over a column off and, on average in the last 5 s, over 1 % too much energy",
-    "L": "over a column off and, on average in the last 5 s, over 1 % too little energy",
-    "P": "over a column off, but in the last 5 s its energy is right, as at rest",
-    "-": "within a column of the film",
+MAP_FPS = [1, 2, 5, 10, 30, 60, 120, 240, 480]
+LATE_S = 15  # here begin the last 5 s of a run: the last quarter of it
+VERDICTS = {  # a letter, its name, and what it means
+    "X": ("gets out", "further beyond a wall than the track is long"),
+    "S": ("is stuck", "beyond the same wall all through the last 5 s"),
+    "H": ("hops on", "over a column off, moving at the end, where the true car lies still"),
+    "G": ("has too much energy", "in the last 5 s on average, by over 1 % of the first"),
+    "L": ("has too little energy", "in the last 5 s on average, by over 1 % of the first"),
+    "P": ("was off, with the right energy", "over a column off at some time"),
+    "-": ("is right", "never over a column of the film off"),
 }
-FROM_WORST_TO_BEST = list(VERDICTS)
+FROM_WORST_TO_BEST = "XSHWGLP-"  # W is for several runs: see worst_of()
 
-def verdict(track: Track, column_m: float, fps: int, cut: int) -> str:
-    """The letter of one run: X, S, H, G, L, P or -. (W needs several runs.)"""
-    frames = simulate(track, fps, cut, max(1, fps // 10))  # every 0.1 s or, if longer, every frame
-    first_late = len(frames) * 3 // 4  # here begin the last 5 of 20 s
-    late = frames[first_late:]
-    track_m = track.length_m()
-    # X: how far beyond a wall was the car?
-    # (Positive numbers are beyond the right wall, negative ones beyond the left wall.)
-    beyond_m = [frame.x_m - track.to_track(frame.x_m) for frame in frames]
-    if max(beyond_m) > track_m or min(beyond_m) < -track_m:
+def verdict(record: Record, column_m: float) -> str:
+    """The letter of one run of 20 s: X, S, H, G, L, P or -."""
+    track, times_s, states, true_states = record
+    late = bisect_left(times_s, LATE_S - ROUND_OFF_S)  # the first frame of the last 5 s
+    left_m, right_m, track_m = track.left_edge_m, track.right_edge_m, track.length_m()
+    places_m = [x_m for x_m, _ in states]
+    if max(places_m) > right_m + track_m or min(places_m) < left_m - track_m:
         return "X"
-    # S: was it beyond the same wall all through the last 5 s?
-    late_beyond_m = beyond_m[first_late:]
-    if min(late_beyond_m) > 0 or max(late_beyond_m) < 0:
+    # S: less than ten frames would not show that the car stays there.
+    late_m = places_m[late:]
+    is_beyond = min(late_m) > right_m or max(late_m) < left_m
+    if is_beyond and len(late_m) >= 10:
         return "S"
-    # H: did the true car lie still all through the last 5 s, but not this one? (Its energy is
-    # exactly 0 if replay has laid it on its floor.)
-    true_energies = [track.energy(frame.true_m, frame.true_mps) for frame in late]
-    if max(true_energies) == 0 and max(frame.error_m() for frame in late) > HOP_M:
-        return "H"
-    # G, L and P are for a car that is over a column off.
-    if max(frame.error_m() for frame in frames) <= column_m:
+    if record.furthest_m() <= column_m:
         return "-"
-    # G or L: how much more energy did it have than the true car? 100 % is v^2/2 at the start, and
-    # what the acceleration could add on the whole length of the track.
-    all_energy = track.v_mps**2 / 2 + abs(track.a_mps2) * track_m
-    energies = [track.energy(frame.x_m, frame.v_mps) for frame in late]
+    # H: a true car that lies still has no energy. (Its energy is exactly 0, because replay puts it
+    # on its floor.)
+    true_energies = [track.energy(x_m, v_mps) for x_m, v_mps in true_states[late:]]
+    is_at_rest = rest_began_s(track, times_s, states, column_m) is not None
+    if max(true_energies) == 0 and not is_at_rest:
+        return "H"
+    # G and L: on average over the last 5 s. 100 % is the energy at the start.
+    energies = [track.energy(x_m, v_mps) for x_m, v_mps in states[late:]]
     gain = fmean(energies) - fmean(true_energies)
-    if gain > 0.01 * all_energy:
+    one_percent = 0.01 * track.energy(*true_states[0])
+    if gain > one_percent:
         return "G"
-    if gain < -0.01 * all_energy:
+    if gain < -one_percent:
         return "L"
     return "P"
 
-def cell(letters: list[str]) -> str:
-    """One letter for ten runs: the worst, as a small letter if only some runs are so bad."""
-    worst = min(letters, key=FROM_WORST_TO_BEST.index)  # the first in this list
-    if worst == "G" and "L" in letters:
-        return "W"
+def worst_of(letters: list[str]) -> str:
+    """One letter for several runs: the worst, as a small letter if only some are so bad."""
+    if "G" in letters and "L" in letters:
+        letters = ["W" if letter in "GL" else letter for letter in letters]
+    worst = min(letters, key=FROM_WORST_TO_BEST.index)
     if any(letter != worst for letter in letters):
         return worst.lower()
     return worst
 
-def stability(scene: Scene, number: int) -> None:
-    """Print the map: a row for each method, a column for each rate, a letter for ten runs."""
-    column_m = 1 / scene.m_to_px
-    say(f"Stability. Scene {number}: {track_text(scene)}")
+def stability(scene: Scene, words: str) -> None:
+    """Print the map: a row for each method, a column for each rate. words asked for the scene."""
+    column_m = scene.column_m()
+    say(f"Stability. Scene {words}: {track_text(scene.track)}")
     say("Which methods are right, and from which frame rate on? Each runs ten times for 20 "
-        "simulated seconds, and is looked at every 0.1 s or, if it is longer, every frame. A small "
-        "letter: only some of the ten runs are so bad. 100 % of the energy is v^2/2 at the start + "
-        "the acceleration * the length of the track. Example 20 says why hops get too much energy "
-        "(H, G), and example 19 why they get too little (L).")
+        "simulated seconds. G and L are for cars that were over a column off. W: some of the ten "
+        "runs have a G, others an L. A small letter: only some of the ten are so bad. Example 20 "
+        "says why hops get too much energy (H, G), and example 19 why they get too little (L).")
     print()
     print(" " * 20 + "".join([str(fps).rjust(6) for fps in MAP_FPS]) + " FPS")
+    true_runs = {fps: ten_true_runs(scene.track, fps) for fps in MAP_FPS}
     for motion in MOTIONS:
         for correction in ALL_CORRECTIONS:
             if correction in EXACT_ONLY and motion != "exact":
                 continue
-            method = replace(scene, motion=motion, correction=correction)
-            row = method_text(motion, correction).ljust(20)
+            track = replace(scene.track, motion=motion, correction=correction)
+            row = method_text(track).ljust(20)
             for fps in MAP_FPS:
-                letters = [verdict(method, column_m, fps, cut) for cut in range(CUTS)]
-                row += cell(letters).rjust(6)
+                records = ten_records(track, fps, true_runs[fps])
+                letters = [verdict(record, column_m) for record in records]
+                row += worst_of(letters).rjust(6)
             print(row, flush=True)
-    for letter, meaning in VERDICTS.items():
-        print(f"{letter}  {meaning}")
+    for letter, (name, meaning) in VERDICTS.items():
+        print(f"{letter}  {name}: {meaning}")
+    print(f"Next: {PYTHON} airtrack.py 20")
 
-# ==== 9. The law: why the map has its H, G and L ================================================
-# Why do some cars hop for ever, and why do others lie still too soon?
-# There is no code here. You need pen and paper.
-#
-# A car hops on its floor. It has started on the track, and does not meet the other wall. Up is away
-# from the floor, g is the size of a, and all frames last dt. So each frame adds g * dt to the
-# velocity downwards.
-#
-# A hop lasts from a frame in which a collision is found to the next such frame. It begins upwards,
-# at the speed u, and ends downwards, at the speed w. Here is a hop with exact + surface. g is 4
-# m/s^2, dt is 0.1 s, up is to the right, and a column is 1 cm. Each line has the number of its
-# frame.
-#     0:        *                   The hop begins on the floor (*), with u = 1.1 m/s upwards.
-#     1:        |        *
-#     2:        |             *
-#     3:        |              *
-#     4:        |           *
-#     5:        |    *
-#     6:  0     *                   The hop ends below the floor (0), with w = 1.3 m/s downwards.
-# In truth a car comes back as fast as it left: w is u. This car comes back faster, because its
-# collision is found only below the floor. The number k of a hop says how much faster:
-#         w = u + k * g * dt                  here 1.3 = 1.1 + k * 0.4, so k is 1/2
-# Then surface or rebound leaves the car the speed CR * w, but lifts it, too. (It should pay for the
-# lift with speed.) So the next hop begins at CR * w. Call this hop 1, and the next hop 2. This is
-# the law:
-#         w2 = CR * w1 + k2 * g * dt
-# In truth k is 0 in every hop.
-#
-# How large is k? In a hop of n frames the velocity downwards goes from -u to w:
-#         w = n * g * dt - u                  here 1.3 = 6 * 0.4 - 1.1
-# Subtract u once more. On the left, w - u is k * g * dt, by the definition of k:
-#         k = n - 2 * u/(g * dt)              here 6 - 5.5 = 1/2
-# And how large is n? After n frames the drawn car is n * dt * (u - n * g * dt/2) above the floor.
-# This is below 0 as soon as n is above 2 * u/(g * dt). The hop ends with the first such frame:
-#         n = the next whole number above 2 * u/(g * dt)          here above 5.5, so 6
-# So k is the distance from 2 * u/(g * dt) to the next whole number: more than 0, and at most 1.
-#
-# With the lines for n and w one can foretell a film with exact + surface. Say CR is 0.8:
-#         u                        2 * u/(g * dt)     n     w
-#         1.1                      5.5                6     6 * 0.4 - 1.1 = 1.3
-#         0.8 * 1.3 = 1.04         5.2                6     6 * 0.4 - 1.04 = 1.36
-#         0.8 * 1.36 = 1.088       5.44               6     6 * 0.4 - 1.088 = 1.312
-# In truth w would be 1.1, then 0.88, then 0.704. (If 2 * u/(g * dt) is a whole number, round-off
-# decides whether the hop ends there or a frame later.)
-#
-# Compared with exact, each frame of forward adds g * dt^2/2 to the height, and each frame of
-# backward takes as much. So with surface
-#         forward:   n = the next whole number above 2 * u/(g * dt) + 1
-#         backward:  n = the next whole number above 2 * u/(g * dt) - 1, but at least 1
-# With forward k is one larger than with exact. With backward k is one smaller, if the hop has two
-# frames or more. With rebound a hop begins above the floor, so it may last longer. In hops of two
-# frames or more, k is more than the first number and at most the second:
-#
-#                  surface     rebound
-#     forward      1 to 2      1 to 3
-#     exact        0 to 1      0 to 2
-#     backward    -1 to 0     -1 to 1
-#
-# (The tests check this table in every hop of many films. In hops of one frame backward may have a k
-# above 0. So at 1 FPS the car of example 12 with backward + surface lies on its floor, keeps a
-# velocity, and has a G in the map.)
-#
-# What does k do?
-#     k > 0   The car gets speed from nothing. At CR = 1 it hops higher and higher (G in the map).
-#             At CR < 1 it may hop for ever (H, if it hops over 1 mm high), as told below.
-#     k < 0   The car loses speed. It comes to rest, even at CR = 1 (L).
-#     k = 0   The car comes back as fast as it left.
-#
-# What does exact + conserve do? A hop that began at u has the same frames as with surface. But then
-# conserve works out the speed at the floor itself, which is u. So the next hop begins at CR * u, as
-# in truth. Only the hop is up to a frame too long: with u = 1.1 it has 6 frames instead of 5.5.
-#
-# Which hop is steady, so that the same hop follows it? Then u is CR * w. Put this into the lines
-# for w and k:
-#         w = n * g * dt/(1 + CR)             and             k = n * (1 - CR)/(1 + CR)
-# With exact + surface k is at most 1. So a steady hop has at most (1 + CR)/(1 - CR) frames: 9 at
-# CR = 0.8. Each whole n below this limit is possible, and the start of the film decides which of
-# them it is. (At the limit itself the smallest error makes the hops shorter.) Hops may even get
-# longer: with CR = 0.8, g * dt = 0.4 m/s and u = 0.1 m/s, hops of 1, 2, 3, 4 and 4 frames follow
-# each other. In hops of one frame the car meets the floor in each frame, so it lies there. (In
-# short frames the film calls steady hops of one or two frames at rest, because their energy is
-# small enough.) Below CR = 1/3 only n = 1 is steady. With rebound k may be up to 2, so steady hops
-# may be longer. And k is not the same in all hops of one length, so the hops may also go round in a
-# cycle, as 7 7 8 9 9 8 frames.
-#
-# Example 20 is exact + rebound at CR = 0.8, and g * dt is 0.2 m/s. From its start the hops get
-# steady at n = 9. So w is 9 * 0.2/1.8 = 1 m/s, and k is 1. The car hops like this for ever.
-#
-# Example 19 is backward + surface at CR = 1. There 2 * u/(g * dt) is 15.02, 14.98, 13.02, 12.98 ...
-# and n is 15, 14, 13, 12 ... So k is -0.02 and -0.98 in turn, and the hops get shorter down to one
-# frame: the car lies on the floor. If 2 * u/(g * dt) is a whole number, as for a car that starts
-# from rest, k is 0. Then the car hops for ever, as it should, if round-off lets it.
+# Why do some cars hop for ever, and why do others lie still too soon? In hops on the floor, in
+# frames of one length, surface and rebound follow one law. A hop begins at a speed u, upwards. It
+# ends where a collision is found: below the floor, at a speed w, downwards. In truth w is u. Here
+#         w = u + k * g * dt,        and the next hop begins at u = CR * w.
+# In hops of two frames or more, k is more than 0 and at most 1 with exact + surface. So each hop
+# gets speed from nothing. At CR = 1 the hops get higher and higher (G). At a smaller CR the bounce
+# takes the part 1 - CR of w. If w is small, k * g * dt may be as much as that, and the hops go on
+# for ever (H). With backward + surface, k is more than -1 and at most 0. So each hop loses speed or
+# keeps it, and the car may come to rest even at CR = 1 (L). The page .github/law.md has the other
+# methods, the proof, and a way to foretell a film with pen and paper.
 
-# ==== 10. Before and after a film ===============================================================
-# What is said before a film, and what after it? What happened to the cars is worked out after the
-# film, from the frames that each car has kept.
+# ==== 9. Before and after a film ================================================================
+# What is said before a film, and what after it?
 
-class Wanted(NamedTuple):
-    """What the user wants, by the words of the command line."""
+class Film(NamedTuple):
+    """A film as somebody wants it."""
 
-    command: str | None  # chart, stability or, for a film, None
     number: int  # of the example
-    typed: dict[str, str]  # the settings that replace the example's own, as they were typed
-    changes: dict[str, Any]  # their values
+    typed: list[str]  # the settings that were typed, as NAME=VALUE
+    scene: Scene
+    unchanged: Track | None  # the track of the example as it is, if a + is drawn for it
+    texts: Example  # the one whose texts fit
     has_details: bool
     is_fast: bool
     max_frames: int
 
-class Shown(NamedTuple):
-    """What a film shows."""
-
-    scene: Scene
-    unchanged: Scene | None  # the example as it is, if a + is drawn for it
-    texts: Example  # the one whose texts fit
-
-def is_beyond_a_wall(car: Car) -> bool:
-    """Whether the car was beyond a wall in all of its last ten frames, not only after a bounce."""
-    return not any(car.track.has_on_it(frame.x_m) for frame in car.frames[-10:])
-
-def energy_text(energy: float) -> str:
-    """An energy with up to four significant digits."""
-    if 0 < energy < 0.001:
-        return "<0.001"
-    return f"{energy:.4g}"
-
-def hops_text(car: Car) -> str:
-    """How many frames there are from bounce to bounce. Of many, the first four and the last two."""
-    bounces = [number for number, frame in enumerate(car.frames) if frame.mark_m is not None]
-    hops = [str(after - before) for before, after in pairwise(bounces)]
-    if len(hops) > 6:
-        hops = [*hops[:4], "...", *hops[-2:]]
-    return " ".join(hops)
-
-def end_text(car: Car) -> str:
-    """What the car does at the end of the film."""
-    began_s = rest_began_s(car)
-    if began_s is not None:
-        return f"at rest from {began_s:.2f} s on"
-    if is_beyond_a_wall(car):
-        return "is beyond a wall"
-    return "still moves"
-
-def table_row(mark: str, car: Car) -> str:
-    """A car's row of the table: its method, how far off it was, and its energies."""
-    if mark == "o":
-        row = f"{'o the truth':35}"
-    else:
-        furthest_m = max(frame.error_m() for frame in car.frames)
-        off = "under 1 mm" if furthest_m < 0.001 else f"{furthest_m:.4g} m"
-        row = f"{mark} {method_text(car.track.motion, car.track.correction):20}{off:>13}"
-    energies = [car.track.energy(frame.x_m, frame.v_mps) for frame in car.frames]
-    for energy in (energies[0], min(energies), max(energies), energies[-1]):
-        row += energy_text(energy).rjust(11)
-    return row
-
-def tell_cars(cars: dict[str, Car]) -> None:
-    """Print a table with a row for each car, and a line for its hops and its end."""
-    marks = [mark for mark in ("*", "o", "+", *METHODS) if mark in cars]
-    print()
-    print("                      furthest from    energy in J/kg")
-    print("                     its own truth      first      least       most       last")
-    for mark in marks:
-        print(table_row(mark, cars[mark]))
-    print("Energy 0: it lies on the wall to which it is accelerated. Below 0: beyond it.")
-    print("A car that stays on the track is never further off than the track is long.")
-    print("The hops in frames, each from one bounce to the next, and the end:")
-    for mark in marks:
-        words = [hops_text(cars[mark]), end_text(cars[mark])]
-        print(mark, "; ".join([text for text in words if text]))
-    print("At rest: for 0.3 s and ten frames it had too little energy to rise above its")
-    print("floor by 5 cm, or by more than 3 mm + |a| dt^2/2. (If a is 0: it stood still.)")
-
-def title_text(wanted: Wanted) -> str:
-    """Which scene the film is of, and what the user changed."""
-    title = OWN_SCENE.title
-    if wanted.number in EXAMPLES:
-        title = f"Example {wanted.number}: {EXAMPLES[wanted.number].title}"
-    changes = [f"{name}={text}" for name, text in wanted.typed.items()]
-    return ", ".join([title, *changes])
+def cars_of(scene: Scene, unchanged: Track | None) -> dict[str, Car]:
+    """All cars that a film draws, by their marks, from back to front."""
+    cars = {}
+    if scene.show_methods:
+        for letter, track in by_five_methods(scene.track).items():
+            cars[letter] = Car(track)
+    if scene.show_exact_mark:
+        cars["o"] = Car(truth_of(scene.track))
+    if unchanged is not None:
+        cars["+"] = Car(unchanged)
+    cars["*"] = Car(scene.track)
+    return cars
 
 def scene_text(scene: Scene) -> str:
     """All that moves the car, in words."""
-    text = f"{track_text(scene)}; {method_text(scene.motion, scene.correction)}"
-    text += f", {scene.fps_target:.10g} FPS"
+    text = f"{track_text(scene.track)}; {method_text(scene.track)}, {scene.fps_target:.10g} FPS"
     if scene.jitter > 0:
         text += f", jitter={scene.jitter:.10g}"
     if scene.use_observed_dt:
         text += ", use_observed_dt=True"
-    if not scene.has_on_it(scene.x_m):
+    if not scene.track.has_on_it(scene.track.x_m):
         text += "; it starts beyond a wall"
     if scene.show_methods:
-        text = "; ".join([text, *LEGEND])
+        text = "; ".join([text, *LEGEND.values()])
     return text
 
-# Chart and map use these settings alone. They choose methods and frame rates themselves.
-FOR_COMMANDS = ["x_m", "v_mps", "a_mps2", "left_edge_m", "right_edge_m", "CR", "m_to_px",
-                "width_px"]
+def has_colours() -> bool:
+    """Whether the output is a terminal that shows colours, and is to show them."""
+    terminal = os.environ.get("TERM", "dumb")
+    return sys.stdout.isatty() and terminal != "dumb" and not os.environ.get("NO_COLOR")
 
-def say_after(wanted: Wanted, shown: Shown) -> None:
-    """Say what was to be seen or, where nobody knows it, what to try. Then say what comes next."""
+def fitted(scene: Scene, has_details: bool) -> Scene:
+    """The scene, drawn smaller if its lines are wider than the terminal. Says so then."""
+    columns = shutil.get_terminal_size().columns
+    if has_details:
+        true_m = 0.0 if scene.show_exact_mark else None
+        # Places and speeds in a scene hardly ever need more letters than -1000.00.
+        columns -= len(details_text(-1000, -1000, scene.fps_target, true_m))
+    if columns >= scene.width_px or not sys.stdout.isatty():
+        return scene
+    if columns < 10:  # the least that a scene may have
+        say("The terminal is too narrow: its lines are broken. Leave out d, or make it wider.")
+        columns = 10
+    else:
+        say(f"The picture is drawn {columns} columns wide, to fit into the terminal.")
+    # What was in the last column must stay in the last column. The first column has number 0.
+    m_to_px = scene.m_to_px * (columns - 1) / (scene.width_px - 1)
+    return replace(scene, width_px=columns, m_to_px=m_to_px)
+
+def one_digit(number: float) -> float:
+    """The number with one significant digit, as it is printed: then what is under it is so."""
+    return float(f"{number:.1g}")
+
+def energies_text(track: Track, states: list[State]) -> str:
+    """The first, the least, the most and the last energy, with up to four significant digits."""
+    energies = [track.energy(x_m, v_mps) for x_m, v_mps in states]
+    little = one_digit(energies[0] / 5000)
+    text = ""
+    for energy in (energies[0], min(energies), max(energies), energies[-1]):
+        if 0 < energy < little:
+            text += f"<{little:.1g}".rjust(10)
+        else:
+            # Rounded once to nine digits, so that round-off does not decide the fourth.
+            rounded = float(f"{energy:.9g}")
+            text += f"{rounded:.4g}".rjust(10)
+    return text
+
+def hops_text(car: Car) -> str:
+    """How many frames its hops have, from bounce to bounce. Of many, the first four and last two.
+
+    A bounce in each frame is no hop: so it is if the car lies or is stuck.
+    """
+    bounces = [number for number, frame in enumerate(car.frames) if frame.mark_m is not None]
+    hops = [str(after - before) for before, after in pairwise(bounces) if after - before > 1]
+    if not hops:
+        return "no hop"
+    if len(hops) > 6:
+        hops = [*hops[:4], "...", *hops[-2:]]
+    return " ".join(hops)
+
+def end_text(car: Car, column_m: float) -> str:
+    """What the car does at the end of the film."""
+    began_s = rest_began_s(car.track, car.times_s(), car.states(), column_m)
+    if began_s is not None:
+        return f"at rest from {began_s:.2f} s on"
+    if any(car.track.has_on_it(frame.x_m) for frame in car.frames[-10:]):
+        return "still moves"
+    return "is beyond a wall"  # in all of its last ten frames, not only after a bounce
+
+def continued(car: Car, scene: Scene) -> Car:
+    """The car after the film, moved on in planned frames until SPAN_S have passed."""
+    longer = Car(car.track)
+    longer.frames = list(car.frames)
+    while longer.frames[-1].t_s < SPAN_S - ROUND_OFF_S:
+        longer.move(planned_dt(scene, len(longer.frames)))
+    return longer
+
+def records_of(cars: dict[str, Car], scene: Scene) -> dict[str, Record]:
+    """The cars that are not the truth themselves, each beside its true car, by their marks."""
+    true_states: dict[Track, list[State]] = {}  # by the true car's track: most cars have the same
+    records = {}
+    for mark, car in cars.items():
+        truth = truth_of(car.track)
+        if car.track == truth:
+            continue
+        longer = continued(car, scene)
+        if truth not in true_states:
+            lengths_s = [frame.dt_s for frame in longer.frames[1:]]
+            true_states[truth] = simulate(truth, truth.x_m, truth.v_mps, lengths_s)
+        records[mark] = Record(car.track, longer.times_s(), longer.states(), true_states[truth])
+    return records
+
+def tell_cars(cars: dict[str, Car], scene: Scene) -> None:
+    """Print a table of the cars, what became of them, and the verdict on the *."""
+    column_m = scene.column_m()
+    records = records_of(cars, scene)
+    rows = []
+    ends = []
+    sentence = "The * is the true car, so it is right by definition."
+    for mark, car in reversed(cars.items()):
+        off = "the truth"
+        end = f"{mark} {end_text(car, column_m)}; {hops_text(car)}"
+        if mark in records:
+            record = records[mark]
+            furthest_m = record.first(len(car.frames)).furthest_m()
+            little_m = one_digit(car.track.length_m() / 2000)
+            off = f"under {little_m:g} m" if furthest_m < little_m else f"{furthest_m:.4g} m"
+            frames_of_20_s = bisect_right(record.times_s, SPAN_S + ROUND_OFF_S)
+            name, meaning = VERDICTS[verdict(record.first(frames_of_20_s), column_m)]
+            end += f"; {name}"
+            if mark == "*":
+                sentence = f"In its first {SPAN_S} s, shown or not, the * {name}: {meaning}."
+        energies = energies_text(car.track, car.states())
+        rows.append(f"{mark} {method_text(car.track):20}{off:>15}{energies}")
+        ends.append(end)
     print()
-    say(shown.texts.seen)
-    if shown.texts in (CHANGED, CHANGED_FRAMES, OWN_SCENE):
-        say("The map calls a method right if its car is never further off than a column of the "
-            f"film, which is {1 / shown.scene.m_to_px:.2g} m wide there:")
-        words = [f"{name}={text}" for name, text in wanted.typed.items() if name in FOR_COMMANDS]
+    print("                        furthest from    energy in J/kg (0: it lies at its floor)")
+    print("                       its own truth     first     least      most      last")
+    for row in rows:
+        print(row)
+    print(f"At the end; hops in frames, from bounce to bounce; verdict on the first {SPAN_S} s:")
+    for end in ends:
+        print(end)
+    say(f"{sentence} A column is {column_m:.2g} m wide.")
+
+def film(wanted: Film) -> None:
+    """Say what to look for, leave time to guess, show the film, and say what was to be seen."""
+    scene = wanted.scene
+    title = OWN_SCENE.title
+    if wanted.number in EXAMPLES:
+        title = f"Example {wanted.number}: {EXAMPLES[wanted.number].title}"
+    say(", ".join([title, *wanted.typed]))
+    say(scene_text(scene))
+    drawn = fitted(scene, wanted.has_details)
+    view = View(drawn, wanted.has_details, has_colours() and not wanted.is_fast)
+    cars = cars_of(scene, wanted.unchanged)
+    taking = nullcontext() if wanted.is_fast else taken_keys()
+    with taking as keys:
+        if keys is None:
+            say(wanted.texts.look_for)
+        else:
+            for text in keys.texts_before(wanted.texts.look_for):
+                say(text)
+            keys.leave_time()
+        print()
+        run(cars, scene, view, wanted.max_frames, keys)
+    if len(cars["*"].frames) == 1:
+        return  # it was ended before it began
+    tell_cars(cars, scene)
+    if not wanted.is_fast:
+        say_after(wanted)
+
+def say_after(wanted: Film) -> None:
+    """Say what was to be seen, and what comes next."""
+    print()
+    if wanted.texts.seen:
+        say(wanted.texts.seen)
+    else:
+        say("At which frame rates is which method right? See the map:")
+        words = [word for word in wanted.typed if word.partition("=")[0] in COMPARED]
         print(PYTHON, "airtrack.py stability", wanted.number, *words)
     following = wanted.number + 1 if wanted.number + 1 in EXAMPLES else "chart"
     say(f"Next: {PYTHON} airtrack.py {following}")
 
-def film(wanted: Wanted, shown: Shown) -> None:
-    """Say what to look for, leave time to guess, show the film, and say what was to be seen."""
-    scene = shown.scene
-    example = EXAMPLES.get(wanted.number, OWN_SCENE)
-    has_details = wanted.has_details or example.has_details
-    say(title_text(wanted))
-    say(scene_text(scene))
-    view = fitted(scene, has_details)
-    if view.width_px < scene.width_px:
-        say(f"The picture is drawn {view.width_px} columns wide, to fit into the terminal.")
-    cars = cars_of(scene, shown.unchanged)
-    taking = nullcontext(NoKeys()) if wanted.is_fast else taken_keys()  # NoKeys takes nothing
-    with taking as keys:
-        for text in keys.texts_before(shown.texts.look_for):
-            say(text)
-        keys.leave_time()
-        print()
-        run(cars, scene, view, has_details, wanted.max_frames, keys)
-    if len(cars["*"].frames) == 1:
-        return  # it was ended before it began
-    tell_cars(cars)
-    if not wanted.is_fast:
-        say_after(wanted, shown)
+# ==== 10. The command line ======================================================================
+# What may be typed, and what does the user want?
 
-# ==== 11. Settings ==============================================================================
-# What does each setting mean, and what may it be?
-
-class Setting(NamedTuple):
-    """A setting's meaning, and what is allowed: a number from least to largest, or a choice."""
-
-    meaning: str
-    least: float = 0
-    largest: float = 0
-    choices: tuple[Any, ...] = ()
-
-YES_OR_NO = (False, True)
-SETTINGS = {
-    "x_m": Setting("start position in m", -1000, 1000),
-    "v_mps": Setting("start velocity in m/s, to the right", -1000, 1000),
-    "a_mps2": Setting("acceleration in m/s^2, to the right", -1000, 1000),
-    "left_edge_m": Setting("position of the left wall in m", -1000, 1000),
-    "right_edge_m": Setting("position of the right wall in m", -1000, 1000),
-    "CR": Setting("speed after a bounce / speed before it", 0, 1),
-    "motion": Setting("how the car is moved", choices=tuple(MOTIONS)),
-    "correction": Setting("how a collision is settled", choices=tuple(ALL_CORRECTIONS)),
-    "fps_target": Setting("frames a second, 1/dt", 0.1, 1000),
-    "use_observed_dt": Setting("dt is how long the frame lasted", choices=YES_OR_NO),
-    "jitter": Setting("frames vary by up to this part", 0, 0.9),
-    "auto_off": Setting("stop when the car is at rest", choices=YES_OR_NO),
-    "m_to_px": Setting("zoom in columns for each m", 0.001, 1000),
-    "width_px": Setting("width of the picture in columns", 10, 1000),
-    "show_start_mark": Setting("draw a . at the start", choices=YES_OR_NO),
-    "show_collision_mark": Setting("draw a 0 where a move ended", choices=YES_OR_NO),
-    "show_exact_mark": Setting("draw an o for the true car", choices=YES_OR_NO),
-    "show_methods": Setting("draw a to e for five methods", choices=YES_OR_NO),
-}
-
-def allowed_text(name: str) -> str:
-    """What a setting may be, in words."""
-    setting = SETTINGS[name]
-    if setting.choices:
-        *others, last = [str(choice) for choice in setting.choices]
-        return f"{', '.join(others)} or {last}"
-    kind = "a whole number" if name == "width_px" else "a number"
-    return f"{kind} from {setting.least} to {setting.largest}"
-
-def is_allowed(name: str, value: Any) -> bool:
-    """Whether the setting of this name may have this value."""
-    setting = SETTINGS[name]
-    if setting.choices:
-        return value in setting.choices
-    return bool(setting.least <= value <= setting.largest)
-
-def check(track: Track) -> None:
-    """Raise ValueError for a Track or a Scene that is not allowed."""
-    for each in fields(track):
-        value = getattr(track, each.name)
-        if not is_allowed(each.name, value):
-            raise ValueError(f"{each.name} must be {allowed_text(each.name)}, not {value}")
-    left_m, right_m = track.left_edge_m, track.right_edge_m
-    if right_m - left_m < 0.01 - 1e-9:  # round-off: 2.21 - 2.2 is a little less than 0.01
-        raise ValueError(f"right_edge_m must be left_edge_m + 0.01 or more, so from "
-                         f"{left_m + 0.01:.10g} on, not {right_m}")
-    condition = f"with correction={track.correction}"
-    if track.correction in EXACT_ONLY and track.motion != "exact":
-        raise ValueError(f"motion must be exact {condition}, not {track.motion}: choose "
-                         "motion=exact or another correction")
-    if track.correction in EXACT_ONLY and not track.has_on_it(track.x_m):
-        raise ValueError(f"x_m must be from {left_m} to {right_m} {condition}, not {track.x_m}: "
-                         "choose a start on the track or another correction")
-
-# ==== 12. The command line ======================================================================
-# What does the user want?
+class Refused(ValueError):
+    """What was typed is not allowed."""
 
 FRAMES = 50_000  # a film that nobody stops ends then
 COMMANDS = {"chart": chart, "stability": stability}
-DEFAULTS = vars(Scene())
-OF_THE_TRACK = [each.name for each in fields(Track)]
+OF_THE_TRACK = {each.name: each for each in fields(Track)}
+OF_THE_FILM = {each.name: each for each in fields(Scene) if each.name != "track"}
 OF_THE_FRAMES = ["fps_target", "use_observed_dt", "jitter"]
+SETTINGS = OF_THE_TRACK | OF_THE_FILM
+# Chart and map take these. They choose methods and frame rates themselves.
+COMPARED = [name for name in OF_THE_TRACK if name not in ("motion", "correction")]
+COMPARED += ["m_to_px", "width_px"]
 
 # What people type because other programs have it, and what it is called here:
-OTHER_NAMES = {"fps": "fps_target", "dt": "fps_target", "g": "a_mps2", "gravity": "a_mps2",
-               "a": "a_mps2", "acceleration": "a_mps2", "left": "left_edge_m",
-               "right": "right_edge_m", "x": "x_m", "position": "x_m", "h": "x_m", "v": "v_mps",
-               "speed": "v_mps", "velocity": "v_mps", "e": "CR", "restitution": "CR",
-               "zoom": "m_to_px", "map": "stability", "details": "d", "help": "-h",
-               "fast": "--fast", "frames": "--frames"}
+OTHER_NAMES = {
+    "fps": "fps_target", "dt": "fps_target", "time": "fps_target", "g": "a_mps2",
+    "gravity": "a_mps2", "a": "a_mps2", "acceleration": "a_mps2", "left": "left_edge_m",
+    "right": "right_edge_m", "x": "x_m", "y": "x_m", "position": "x_m", "h": "x_m",
+    "height": "x_m", "v": "v_mps", "vx": "v_mps", "vy": "v_mps", "speed": "v_mps",
+    "velocity": "v_mps", "e": "CR", "restitution": "CR", "bounciness": "CR", "elasticity": "CR",
+    "zoom": "m_to_px", "euler": "motion=forward", "rk4": "motion=exact", "map": "stability",
+    "details": "d", "help": "-h", "fast": "--fast", "frames": "--frames"}
 
-def hint(word: str) -> str:
-    """What may have been meant by an unknown word."""
+def is_number(name: str) -> bool:
+    """Whether a setting is a number, and not one of several words."""
+    return type(SETTINGS[name].default) in (int, float)
+
+def allowed_text(name: str) -> str:
+    """What a setting may be, in words."""
+    *others, last = [str(value) for value in SETTINGS[name].metadata["allowed"]]
+    if not is_number(name):
+        return f"{', '.join(others)} or {last}"
+    kind = "a whole number" if name == "width_px" else "a number"
+    return f"{kind} from {others[0]} to {last}"
+
+def fault_text(name: str, text: str) -> str:
+    """What is said of a value that a setting may not have."""
+    return f"{name} must be {allowed_text(name)}, not {text}"
+
+def value_of(name: str, text: str) -> Any:
+    """The value of a setting, from what a user typed after NAME=. Raises Refused."""
+    if not is_number(name):
+        for choice in SETTINGS[name].metadata["allowed"]:
+            if text.lower() == str(choice).lower():
+                return choice
+        raise Refused(fault_text(name, text))
+    if "," in text:
+        raise Refused(f"{fault_text(name, text)}: write a decimal point, not a comma")
+    try:
+        return int(text) if name == "width_px" else float(text)
+    except ValueError:
+        raise Refused(fault_text(name, text)) from None
+
+def scene_of(settings: dict[str, Any]) -> Scene:
+    """The scene with these settings. Raises Refused for what is not allowed."""
+    for name, value in settings.items():
+        allowed = SETTINGS[name].metadata["allowed"]
+        if is_number(name) and not allowed[0] <= value <= allowed[1]:
+            raise Refused(fault_text(name, f"{value:.10g}"))
+        if not is_number(name) and value not in allowed:
+            raise Refused(fault_text(name, value))
+    track = Track(**{name: settings[name] for name in settings if name in OF_THE_TRACK})
+    scene = Scene(track, **{name: settings[name] for name in settings if name in OF_THE_FILM})
+    left_m, right_m = track.left_edge_m, track.right_edge_m
+    if right_m - left_m < 0.01 - 1e-9:  # round-off: 2.21 - 2.2 is a little less than 0.01
+        raise Refused(f"right_edge_m must be left_edge_m + 0.01 or more, so from "
+                         f"{left_m + 0.01:.10g} on, not {right_m}")
+    condition = f"with correction={track.correction}"
+    if track.correction in EXACT_ONLY and track.motion != "exact":
+        raise Refused(f"motion must be exact {condition}, not {track.motion}: choose "
+                         "motion=exact or another correction")
+    if track.correction in EXACT_ONLY and not track.has_on_it(track.x_m):
+        raise Refused(f"x_m must be from {left_m} to {right_m} {condition}, not {track.x_m}: "
+                         "choose a start on the track or another correction")
+    if "m_to_px" in settings:
+        return scene
+    # Nobody chose a zoom: take one that shows the right wall.
+    shown_m = right_m - min(0.0, left_m)
+    return replace(scene, m_to_px=min(scene.m_to_px, (scene.width_px - 1) / shown_m))
+
+def fault_of(word: str) -> str:
+    """What is wrong with an unknown word, and what may have been meant by it."""
+    name = re.split("[=:]", word)[0].lstrip("-")
+    if name in SETTINGS:  # as in CR 0.7, CR = 0.7, CR:0.7 or --CR 0.7
+        return f"write {name}=VALUE as one word: {name} must be {allowed_text(name)}"
     # What is meant, by what may be typed:
-    hints = OTHER_NAMES | {each.lower(): each for each in [*SETTINGS, *COMMANDS]}
+    hints = OTHER_NAMES | {each.lower(): each for each in [*SETTINGS, *COMMANDS, "d"]}
     hints |= {each: f"motion={each}" for each in MOTIONS}
     hints |= {each: f"correction={each}" for each in ALL_CORRECTIONS}
     # With a lower cutoff more hints are wrong: a_mps2 for grafik, as that is like gravity.
-    near = difflib.get_close_matches(word.lower().lstrip("-"), hints, n=1, cutoff=0.7)
+    near = difflib.get_close_matches(name.lower(), hints, n=1, cutoff=0.7)
     if not near:
-        return "-h lists all that there are"
-    name = hints[near[0]]
-    if name in SETTINGS:
-        name = f"{name}=VALUE ({SETTINGS[name].meaning})"
-    return f"did you mean {name}?"
-
-def name_and_text(word: str) -> tuple[str, str]:
-    """The two parts of NAME=VALUE. Raises ValueError for any other word."""
-    name, _, text = word.partition("=")
-    if name in SETTINGS and text:
-        return name, text
-    name, _, _ = name.partition(":")
-    if name in SETTINGS:  # as in CR 0.7, CR = 0.7 or CR:0.7
-        raise ValueError(f"write {name}=VALUE as one word: {name} must be {allowed_text(name)}")
-    raise ValueError(f"unknown word {word}: {hint(name)}")
-
-def value_of(name: str, text: str) -> Any:
-    """The value of a setting, from what a user typed after NAME=. Raises ValueError."""
-    fault = f"{name} must be {allowed_text(name)}, not {text}"
-    choices = SETTINGS[name].choices
-    if choices:
-        for choice in choices:
-            if text.lower() == str(choice).lower():
-                return choice
-        raise ValueError(fault)
-    if "," in text:
-        raise ValueError(f"{fault}: write a decimal point, not a comma")
-    try:
-        value = int(text) if name == "width_px" else float(text)
-    except ValueError:
-        raise ValueError(fault) from None
-    if not is_allowed(name, value):
-        raise ValueError(fault)
-    return value
+        return f"unknown word {word}: -h lists all that there are"
+    meant = hints[near[0]]
+    if meant in SETTINGS:
+        meant = f"{meant}=VALUE ({SETTINGS[meant].metadata['meaning']})"
+    return f"unknown word {word}: did you mean {meant}?"
 
 def epilog() -> str:
     """What -h shows at its end: the examples, the methods and the settings."""
@@ -1291,10 +1328,16 @@ def epilog() -> str:
         row = f"  {name:9} {first_line}"
         lines.append(textwrap.fill(row, 80, subsequent_indent=" " * 12))
     lines += ["", "settings: default, meaning and what is allowed"]
-    for name, setting in SETTINGS.items():
-        row = f"  {name:20}{DEFAULTS[name]!s:9}{setting.meaning} ({allowed_text(name)})"
+    for name, each in SETTINGS.items():
+        row = f"  {name:20}{each.default!s:9}{each.metadata['meaning']} ({allowed_text(name)})"
         lines.append(textwrap.fill(row, 80, subsequent_indent=" " * 31))
     return "\n".join(lines)
+
+def frames_number(text: str) -> int:
+    """The N of --frames N."""
+    if not re.fullmatch("[0-9]{1,9}", text) or int(text) == 0:
+        raise argparse.ArgumentTypeError(f"N must be a whole number from 1 up, not {text}")
+    return int(text)
 
 def make_parser() -> argparse.ArgumentParser:
     """What argparse needs to know of the command line. It adds -h by itself."""
@@ -1302,96 +1345,88 @@ def make_parser() -> argparse.ArgumentParser:
         prog="airtrack.py", description=__doc__, epilog=epilog(),
         formatter_class=argparse.RawDescriptionHelpFormatter)  # it leaves our lines as they are
     parser.add_argument("words", nargs="*", metavar="WORD", help="see above")
-    parser.add_argument("-d", "-D", dest="details", action="store_true", help="as the word d")
+    parser.add_argument("-d", dest="details", action="store_true", help="as the word d")
     parser.add_argument("--fast", action="store_true", help="no waiting, keys, colours, last text")
-    parser.add_argument("--frames", metavar="N", default=str(FRAMES),
+    parser.add_argument("--frames", metavar="N", type=frames_number,
                         help=f"stop after N frames; without it, after {FRAMES}")
+    parser.add_argument("-help", action="help", help=argparse.SUPPRESS)
     return parser
 
-class Words(NamedTuple):
-    """The words of the command line, sorted."""
-
-    commands: list[str]
-    numbers: list[int]
-    typed: dict[str, str]  # NAME=VALUE
-    has_details: bool  # whether d is one of them
-
-def sorted_words(words: list[str]) -> Words:
-    """Sort the words of the command line. Raises ValueError for an unknown one."""
-    commands, numbers, typed = [], [], {}
+def sort_words(options: argparse.Namespace, words: list[str]) -> None:
+    """Sort the words, and add to options what they say. Raises Refused for one that is wrong."""
+    commands, numbers = [], []
+    texts = {}  # what was typed for a setting, by its name
     for word in words:
+        name, _, text = word.partition("=")
         if word in COMMANDS:
             commands.append(word)
-        elif word.removeprefix("-").isdecimal():  # -5 is a number, too
-            numbers.append(int(word))
-        elif word not in ("d", "D"):
-            name, text = name_and_text(word)
-            typed[name] = text
-    return Words(commands, numbers, typed, "d" in words or "D" in words)
-
-def wanted_by(options: argparse.Namespace, unknown_options: list[str]) -> Wanted:
-    """What the words and options of the command line ask for. Raises ValueError."""
-    commands, numbers, typed, has_d = sorted_words([*options.words, *unknown_options])
+        elif re.fullmatch("-?[0-9]{1,9}", word):
+            numbers.append(word)
+        elif word == "d":
+            options.details = True
+        elif name in SETTINGS and text.strip():
+            texts[name] = text.strip()
+        else:
+            raise Refused(fault_of(word))
     if len(commands) > 1 or len(numbers) > 1:
-        found = [str(each) for each in [*commands, *numbers]]
-        raise ValueError(f"one command and one EXAMPLE at a time, not {', '.join(found)}")
-    if not options.frames.isdecimal() or int(options.frames) == 0:
-        raise ValueError(f"--frames N must be a whole number from 1 up, not {options.frames}")
-    command, number = None, 1
-    if commands:
-        command, number = commands[0], 12
+        found = ", ".join([*commands, *numbers])
+        raise Refused(f"one command and one EXAMPLE at a time, not {found}")
+    options.command = commands[0] if commands else None
+    options.number = 12 if commands else 1
     if numbers:
-        number = numbers[0]
-    changes = {name: value_of(name, text) for name, text in typed.items()}
-    return Wanted(command, number, typed, changes, has_details=options.details or has_d,
-                  is_fast=options.fast, max_frames=int(options.frames))
+        options.number = int(numbers[0])
+    options.typed = [f"{name}={text}" for name, text in texts.items()]
+    options.changes = {name: value_of(name, text) for name, text in texts.items()}
 
-def shown_by(wanted: Wanted) -> Shown:
-    """What the film shows. Raises ValueError for settings that exclude each other."""
-    changes = wanted.changes
-    if wanted.number not in EXAMPLES:
-        return Shown(scene_of(OWN_SCENE.settings | changes), None, OWN_SCENE)
-    example = EXAMPLES[wanted.number]
-    as_it_is = DEFAULTS | example.settings
-    changed = [name for name in changes if changes[name] != as_it_is[name]]
-    changes_track = any(name in OF_THE_TRACK for name in changed)
-    changes_frames = any(name in OF_THE_FRAMES for name in changed)
-    if not changes_track and not changes_frames:
-        return Shown(scene_of(example.settings | changes), None, example)
-    # Nobody knows what happens in a changed example. So the film shows its true car.
-    scene = scene_of(example.settings | {"show_exact_mark": True} | changes)
-    if changes_frames:
-        return Shown(scene, None, CHANGED_FRAMES)  # a + would need frames of its own
-    return Shown(scene, scene_of(example.settings), CHANGED)
+def film_of(options: argparse.Namespace) -> Film:
+    """The film that was asked for. Raises Refused."""
+    example = EXAMPLES.get(options.number, OWN_SCENE)
+    settings = example.settings | options.changes
+    as_it_is = {name: each.default for name, each in SETTINGS.items()} | example.settings
+    changed = [name for name, value in options.changes.items() if value != as_it_is[name]]
+    texts, unchanged = example, None
+    if example is not OWN_SCENE and any(name in OF_THE_FRAMES for name in changed):
+        texts = CHANGED_FRAMES  # no +: it would need frames of its own
+    elif example is not OWN_SCENE and any(name in OF_THE_TRACK for name in changed):
+        texts, unchanged = CHANGED, scene_of(example.settings).track
+    if texts is not example:  # nobody knows what happens there, so the film shows its true car
+        settings = {"show_exact_mark": True} | settings
+    max_frames = FRAMES if options.frames is None else options.frames
+    return Film(options.number, options.typed, scene_of(settings), unchanged, texts,
+                options.details or example.has_details, options.fast, max_frames)
 
-def compared_by(wanted: Wanted) -> Scene:
-    """The scene of a chart or a map. Raises ValueError for what these do not take."""
-    refused = [name for name in wanted.changes if name not in FOR_COMMANDS]
+def compared_scene(options: argparse.Namespace) -> Scene:
+    """The scene of a chart or a map. Raises Refused for what these do not take."""
+    refused = [name for name in options.changes if name not in COMPARED]
     if refused:
-        raise ValueError(f"{wanted.command} takes no {refused[0]}: it chooses methods and frame "
-                         f"rates itself, and takes an EXAMPLE and {', '.join(FOR_COMMANDS)}")
-    if wanted.has_details or wanted.is_fast or wanted.max_frames != FRAMES:
-        raise ValueError(f"{wanted.command} is no film: it takes no d, --fast or --frames")
-    settings = EXAMPLES.get(wanted.number, OWN_SCENE).settings | wanted.changes
-    scene = scene_of({name: settings[name] for name in FOR_COMMANDS if name in settings})
-    return replace(scene, x_m=scene.to_track(scene.x_m))  # a start beyond a wall is not compared
+        raise Refused(f"{options.command} takes no {refused[0]}: it chooses methods and frame "
+                      f"rates itself, and takes an EXAMPLE and {', '.join(COMPARED)}")
+    if options.details or options.fast or options.frames is not None:
+        raise Refused(f"{options.command} is no film: it takes no d, --fast or --frames")
+    settings = EXAMPLES.get(options.number, OWN_SCENE).settings | options.changes
+    scene = scene_of({name: settings[name] for name in COMPARED if name in settings})
+    # The truth of a start beyond a wall is a start at the wall.
+    track = replace(scene.track, x_m=scene.track.to_track(scene.track.x_m))
+    return replace(scene, track=track)
+
+def show(options: argparse.Namespace) -> None:
+    """Show what is asked for. Raises Refused before it shows anything."""
+    if options.command is None:
+        film(film_of(options))
+    else:
+        words = " ".join([str(options.number), *options.typed])
+        COMMANDS[options.command](compared_scene(options), words)
 
 def main(argv: list[str] | None = None) -> int:
     """Do what argv or, without it, the command line asks for. Returns the exit status."""
     parser = make_parser()
     options, unknown_options = parser.parse_known_intermixed_args(argv)
     try:
-        # First check all that was typed. A partial is a function that has its arguments already.
-        wanted = wanted_by(options, unknown_options)
-        if wanted.command is None:
-            show = partial(film, wanted, shown_by(wanted))
-        else:
-            show = partial(COMMANDS[wanted.command], compared_by(wanted), wanted.number)
-    except ValueError as fault:
-        parser.error(str(fault))  # this prints the text and ends the program with status 2
-    try:
-        show()
+        sort_words(options, [*unknown_options, *options.words])
+        show(options)
         sys.stdout.flush()
+    except Refused as fault:
+        parser.error(str(fault))  # this prints the text and ends the program with status 2
     except KeyboardInterrupt:
         return 130  # the status of a program that Ctrl-C has ended
     except OSError as fault:  # the output takes no more

@@ -13,7 +13,7 @@ import sys
 import time
 import warnings
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager, nullcontext, suppress
 from typing import Any, NamedTuple, NoReturn
 
 if sys.platform == "win32":
@@ -87,21 +87,24 @@ EXAMPLES = {
         "Like a row of arcs, each of them a parabola. For a film is a graph: position to the "
         "right, time downwards. A constant acceleration draws parabolas there, as in a textbook, "
         "only turned by 90 degrees. The right wall cuts the first arc off. The first arcs are "
-        "hundreds of lines long, and the last ones draw a tail. The film stops after 1882 frames."),
+        "hundreds of lines long, and the last ones draw a tail. The film stops after 1878 "
+        "frames. (The car starts 5 cm beyond the left wall, and leaves it at 10 m/s. But whoever is "
+        "beyond a wall is reversed. So its velocity becomes -7.97 m/s in frame 1 and 6.41 m/s in "
+        "frame 2. The table compares it with a car that starts on the wall.)"),
     5: Example("Where each collision was found", {
         "x_m": 2.0, "v_mps": 3.0, "a_mps2": 2.0, "CR": 0.7},
         "A 0 shows where the move alone put the car, beyond the wall. Where is the * in the same "
         "line? Does every collision show a 0?",
         "The rebound has put the * back on the track, 70 % as far from the wall as the 0 is on "
-        "the other side. Often that is so near that the * stands in the wall's column. Many of "
-        "the 18 collisions show no 0. It falls into the wall's column, too, and the wall hides "
+        "the other side. Often that is so near that the * stands in the wall's column. Of the 19 "
+        "collisions 12 show no 0. It falls into the wall's column, too, and the wall hides "
         "it. With fps_target=10 the moves end further beyond the wall, and the first five "
         "collisions show their 0."),
     6: Example("Example 5 zoomed out", {
         "x_m": 2.0, "v_mps": 3.0, "a_mps2": 2.0, "CR": 0.7, "m_to_px": 30.0},
         "The drawing is smaller than in example 5. Does the motion change, too? Compare after how "
         "many frames the film stops.",
-        "No, only the drawing changes: it is about half as wide (30/55). The film stops after 235 "
+        "No, only the drawing changes: it is about half as wide (30/55). The film stops after 236 "
         "frames, as example 5 does. With d, each line has the figures of example 5."),
     7: Example("Elastic, small steps", ELASTIC | {"fps_target": 240.0},
         "No speed is lost in a bounce. So the car should come back to the start mark, the dots at "
@@ -144,10 +147,9 @@ EXAMPLES = {
         "Example 11, but the car keeps only 80 % of its speed in a bounce. The bounces come "
         "faster and faster. Is there a last one? When does the car rest?",
         "There is no last bounce. In truth the car bounces infinitely often before t = 11.91 s, "
-        "the Zeno point, and then it lies still. The film calls it at rest from 10.99 s on, "
-        "because its energy is small enough then. Rewind can settle only one bounce a frame. So "
-        "its car never lies still: with auto_off=False it makes hops of some mm for ever, too low "
-        "to see. With correction=replay it lies still from the Zeno point on. Rewind is good "
+        "the Zeno point, and then it lies still. The film calls the * at rest from 12.10 s on. "
+        "Rewind can settle only one bounce a frame. So its car never lies still: with "
+        "auto_off=False it makes hops of some mm for ever, too low to see. With correction=replay it lies still from the Zeno point on. Rewind is good "
         "enough for this scene: until the film ends it is at most about 4.2 mm off, less than a "
         "quarter of a column. On a busy computer all these figures may be a little different."),
     13: Example("Forward Euler beside the truth", {
@@ -208,9 +210,10 @@ EXAMPLES = {
         "the *, beside the one before? With d after the number you see each bounce: there v jumps "
         "up, and in all other lines it falls by 0.20 m/s.",
         "One line shorter: the hops take 15, 14, 13 ... lines, down to 2 and 1, too low to see. "
-        "In frame 135 the film calls the * at rest. A true car comes back each time as fast as it "
-        "left. The * comes back slower, by 0.004 m/s and by 0.196 m/s in turn. With motion=exact "
-        "it comes back faster, by the same two numbers in turn. Then the hops take 18, 19, 20 ... "
+        "In frame 136 the film calls the * at rest. A true car comes back each time as fast as it "
+        "left. The * comes back slower, by 0.004 m/s and by 0.196 m/s in turn. (Hops of one line "
+        "begin at 0.098 and 0.102 m/s in turn: the car lies there, but its velocity does not "
+        "vanish.) With motion=exact it comes back faster, by 0.004 and 0.196 m/s in turn. Then the hops take 18, 19, 20 ... "
         "lines for half a minute, until the * meets the right wall."),
     20: Example("Hops that lose speed, counted", {
         "x_m": 0.66, "v_mps": 0.75, "a_mps2": -2.0, "CR": 0.8, "motion": "exact",
@@ -218,8 +221,8 @@ EXAMPLES = {
         "Each bounce takes 20 % of the speed. Which comes to rest, the o or the *? Count the hops "
         "of the * as in example 19. Watch for 10 s.",
         "Only the o comes to rest: in truth it lies still from t = 7.05 s on, after infinitely "
-        "many bounces. (The table calls it at rest from 6.10 s on, because its energy is small "
-        "enough then.) The hops of the * take 14, 12, 10 lines and, from frame 48 on, 9 for ever. "
+        "many bounces. (The table calls it at rest from 6.80 s on, because its last hops are too "
+        "low to see.) The hops of the * take 14, 12, 10 lines and, from frame 48 on, 9 for ever. "
         "Each hop ends below the floor, because the bounce is found late. Then the rebound lifts "
         "the car, and does not slow it. So in each hop it comes back faster than it left, by up "
         "to 0.4 m/s. But a bounce takes 20 % of its speed. At 1 m/s this is 0.2 m/s, as much as "
@@ -244,63 +247,58 @@ EXAMPLES = {
         "the true ball. Which of them comes to rest? Watch for eight seconds. (> means: higher "
         "than 27 cm, out of the picture.)",
         "Only the o does: in truth it lies still from t = 4.02 s on. (The table calls it at rest "
-        "from 3.78 s on.) From frame 327 on the * hops for ever, in hops of 16 lines that are "
+        "from 3.90 s on.) From frame 327 on the * hops for ever, in hops of 16 lines that are "
         "about 80 mm high. The order of the three lines is to blame. From contact to contact the "
         "game moves the ball, adds gravity, and settles the contact. That is forward + surface: "
         "in each hop the ball gets speed that it should not have. The three lines are repeated in "
         "a circle, so there are only two orders. Position, gravity, contact hops for ever, with "
         "whichever of the three a frame begins. Gravity, position, contact comes to rest. That is "
-        "backward + surface. To see it, add motion=backward: the film stops in frame 220."),
+        "backward + surface. To see it, add motion=backward: the film stops in frame 222."),
 }
 
 # These stand for a changed example and for a scene of one's own. Nobody knows what is to be seen
-# there, so the text after the film says what to try.
-TRY = ("The table tells how far the * was at most from its true car, and its energy beside that of "
-       "the o. If they differ too much for you, add motion=exact correction=rewind or, if that is "
-       "not enough, motion=exact correction=replay. If only the moments of the bounces may be "
-       "wrong, motion=exact correction=conserve is enough.")
+# there, so the film's own table answers.
 CHANGED = Example("A changed example", {},
     "An o is the true car of the changed scene. A + is the car of the example as it is. If you do "
     "not see them, they are under the *. (< and > mean: the * is out of the picture.) What does "
-    "your change do to the *? Is the * right now?", TRY)
+    "your change do to the *? Is the * right now?", "")
 CHANGED_FRAMES = Example("An example with other frames", {},
-    "An o is the true car. If you do not see it, it is under the *. What does your change of the "
-    "frames do to the *? Is the * right now?",
-    "Beside this table look at the table of the example as it is. " + TRY)
+    "An o is the true car. If you do not see it, it is under the *. What does your change do to "
+    "the *? Is the * right now?", "")
 OWN_SCENE = Example(f"Your own scene (the examples are 0 to {max(EXAMPLES)})", {
     "show_exact_mark": True},
     "The * is your car, and the o is the true car. Where you see no o, it is under the *. Does the "
-    "* stay on the o? Does it come to rest? (Without an acceleration a car comes to rest only if "
-    "CR is 0.)", TRY)
+    "* stay on the o? Does it come to rest? (Set the scene by NAME=VALUE, as a_mps2=-2: without "
+    "settings the car stands still.)", "")
 
 # ==== Signals ===================================================================================
 # Ctrl-C, Ctrl-Z, kill and a closed terminal come as signals.
 
 Handler = Any  # a function, SIG_DFL or SIG_IGN
+ENDING_SIGNALS: list[int] = [signal.SIGTERM]
+if sys.platform != "win32":
+    ENDING_SIGNALS += [signal.SIGHUP, signal.SIGQUIT]
 
-def set_handlers(handlers: dict[int, Handler]) -> dict[int, Handler]:
-    """Let these handlers act on these signals. Returns the handlers that were there before.
-
-    A signal that is ignored stays ignored: nohup relies on this.
-    """
-    before = {}
-    for number, handler in handlers.items():
-        if signal.getsignal(number) != signal.SIG_IGN:
-            before[number] = signal.signal(number, handler)
-    return before
+@contextmanager
+def handled(numbers: list[int], handler: Handler) -> Iterator[None]:
+    """In the `with` block let handler act on these signals, but not on ignored ones: see nohup."""
+    before = {number: signal.getsignal(number) for number in numbers}
+    before = {number: found for number, found in before.items() if found != signal.SIG_IGN}
+    for number in before:
+        signal.signal(number, handler)
+    try:
+        yield
+    finally:
+        for number, found in before.items():
+            signal.signal(number, found)
 
 def ignore(*_: object) -> None:
     """Do nothing. (With SIG_IGN, Python would tell of a signal that came just before.)"""
 
-ENDING_SIGNALS: list[int] = [signal.SIGTERM]
-DISTURBING_SIGNALS: list[int] = [signal.SIGTERM]  # while the program ends
-if sys.platform != "win32":
-    ENDING_SIGNALS += [signal.SIGHUP, signal.SIGQUIT]
-    DISTURBING_SIGNALS = [*ENDING_SIGNALS, signal.SIGCONT]  # SIGCONT would take the terminal again
-
 def end_by_signal(number: int, _: object) -> NoReturn:
     """End the program as shells expect it. What has been taken is given back on the way."""
-    set_handlers(dict.fromkeys(DISTURBING_SIGNALS, ignore))
+    for each in ENDING_SIGNALS:
+        signal.signal(each, ignore)  # a second one comes too late
     sys.exit(128 + number)
 
 # ==== The terminal's keys =======================================================================
@@ -313,21 +311,15 @@ def has_terminal() -> bool:
     """Whether input and output are a terminal from which keys can be taken."""
     if not (os.isatty(0) and os.isatty(1)):
         return False
-    if sys.platform == "win32":
-        return True
     try:
-        os.tcgetpgrp(0)
+        return sys.platform == "win32" or os.tcgetpgrp(0) > 0
     except OSError:  # it is not this program's own, as after setsid
         return False
-    return True
 
 HAS_TERMINAL = has_terminal()
 
 if sys.platform == "win32":
-    @contextmanager
-    def taken_terminal() -> Iterator[None]:
-        """Windows gives keys one by one as it is, so there is nothing to take or to give back."""
-        yield
+    taken_terminal = nullcontext  # there is nothing to take or to give back
 
     def terminal_keys() -> list[str]:
         """The keys that were pressed since the last call."""
@@ -341,46 +333,20 @@ if sys.platform == "win32":
         return keys
 
 else:
-    @contextmanager
-    def taken_terminal() -> Iterator[None]:
-        """Get keys one by one in the `with` block. Whatever ends it gives the terminal back."""
-        if not HAS_TERMINAL:
-            yield
-            return
-        found = termios.tcgetattr(0)
-
-        def take(*_: object) -> None:
-            """Take the terminal. In the background the system stops the program here until fg."""
-            with suppress(termios.error):  # the terminal may be gone
-                tty.setcbreak(0, termios.TCSANOW)  # TCSANOW keeps the keys that wait
-
-        def give_back(when: int) -> None:
-            """Give the terminal back. In the background it has been given back already."""
-            with suppress(OSError, termios.error):  # the terminal may be gone
-                if os.tcgetpgrp(0) == os.getpgrp():
-                    termios.tcsetattr(0, when, found)
-
-        def stop(*_: object) -> None:
-            """Ctrl-Z: give the terminal back, stand still until fg, and take it again."""
-            set_handlers({signal.SIGCONT: ignore})
-            give_back(termios.TCSANOW)
-            set_handlers({signal.SIGTSTP: signal.SIG_DFL})
-            os.kill(os.getpid(), signal.SIGTSTP)
-            set_handlers({signal.SIGTSTP: stop, signal.SIGCONT: take})
-            take()
-
-        before = set_handlers({signal.SIGTSTP: stop, signal.SIGCONT: take})
-        try:
-            take()
-            yield
-        finally:
-            set_handlers(dict.fromkeys(DISTURBING_SIGNALS, ignore))  # also if no signal ended it
-            give_back(termios.TCSAFLUSH)  # TCSAFLUSH throws away the keys that wait
-            set_handlers(before)
+    def take_terminal() -> None:
+        """Get keys one by one: without Enter, without an echo, and Ctrl-S as a key like others."""
+        mode = termios.tcgetattr(0)
+        mode[tty.IFLAG] &= ~termios.IXON
+        mode[tty.LFLAG] &= ~(termios.ICANON | termios.ECHO)
+        termios.tcsetattr(0, termios.TCSANOW, mode)  # TCSANOW keeps the keys that wait
 
     def terminal_keys() -> list[str]:
         """The keys that were pressed since the last call."""
-        if not HAS_TERMINAL or not select.select([0], [], [], 0)[0]:
+        if not HAS_TERMINAL:
+            return []
+        with suppress(termios.error):  # the terminal may be gone
+            take_terminal()  # at each call, because fg does not bring it back
+        if not select.select([0], [], [], 0)[0]:
             return []
         try:
             typed = os.read(0, 1024)
@@ -389,50 +355,82 @@ else:
         if not typed:
             return [GONE]
         # An arrow, for example, begins with Esc. Drop what came from there on.
-        return list(typed.decode("ascii", "ignore").partition(ESC)[0])
+        keys, _, _ = typed.decode("ascii", "ignore").partition(ESC)
+        return list(keys)
+
+    @contextmanager
+    def taken_terminal() -> Iterator[None]:
+        """Whatever ends the `with` block gives the terminal back. (terminal_keys() takes it.)"""
+        if not HAS_TERMINAL:
+            yield
+            return
+        found = termios.tcgetattr(0)
+
+        def give_back() -> None:
+            """Give it back as it was found. In the background this has been done already."""
+            with suppress(OSError, termios.error):  # the terminal may be gone
+                if os.tcgetpgrp(0) == os.getpgrp():
+                    termios.tcsetattr(0, termios.TCSAFLUSH, found)  # and drop the keys that wait
+
+        def stop(number: int, _: object) -> None:
+            """Ctrl-Z: give the terminal back, and stand still until fg."""
+            give_back()
+            with handled([number], signal.SIG_DFL):
+                signal.raise_signal(number)
+
+        with handled([signal.SIGTSTP], stop):
+            try:
+                yield
+            finally:
+                with handled(ENDING_SIGNALS, ignore):  # a second signal comes too late
+                    give_back()
 
 # ==== The window's keys =========================================================================
 
 CLOSED = "closed"  # stands for a click that closes the window
 WINDOW_TEXT = "Enter: begin   p: pause   s: step   x: quit"
 
+class NoDisplay(Exception):
+    """There is nothing on which a window could be seen."""
+
 class Window:
     """The little pygame window. If it cannot be opened, why_shut says why."""
 
     def __init__(self) -> None:
         self.why_shut = ""
+        try:
+            self.open()
+        except NoDisplay:
+            self.why_shut = "there is no display"
+        except Exception as fault:  # a broken pygame may raise anything
+            self.why_shut = f"pygame does not work: {fault!r}"
+            if importlib.util.find_spec("pygame") is None:
+                self.why_shut = "pygame is not installed"
+
+    def open(self) -> None:
+        """Open it, and write into it what the keys do."""
         os.environ["SDL_NO_SIGNAL_HANDLERS"] = "1"  # Ctrl-C and the like are for us
         os.environ.setdefault("SDL_VIDEO_WINDOW_POS", "60,60")  # not over the newest line
         os.environ["PYGAME_HIDE_SUPPORT_PROMPT"] = "1"
         if sys.platform == "linux":
             if not os.environ.get("DISPLAY"):
-                self.why_shut = "there is no display"
-                return
+                raise NoDisplay
             # SDL, on which pygame stands, would else open an invisible window on a dead display.
             os.environ.setdefault("SDL_VIDEODRIVER", "x11")
-        if importlib.util.find_spec("pygame") is None:
-            self.why_shut = "pygame is not installed"
-            return
-        try:
-            with warnings.catch_warnings():
-                warnings.simplefilter("ignore")  # pygame's own, which do not concern the user
-                import pygame
-            pygame.display.init()  # not pygame.init(): its sound may print errors
-            pygame.font.init()
-            if pygame.display.get_driver() in ("dummy", "offscreen"):
-                self.why_shut = "there is no display"  # these drivers show nothing
-                return
-            pygame.display.set_mode((300, 20))
-        except Exception as fault:  # a broken pygame may raise anything
-            self.why_shut = f"pygame does not work: {fault}"
-            return
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # pygame's own, which do not concern the user
+            import pygame
+        self.pygame = pygame
+        pygame.display.init()  # not pygame.init(): its sound may print errors
+        pygame.font.init()
+        if pygame.display.get_driver() in ("dummy", "offscreen"):
+            raise NoDisplay  # these drivers show nothing
         pygame.display.set_caption(WINDOW_TEXT)
-        face = pygame.display.get_surface()
+        face = pygame.display.set_mode((300, 20))
         face.fill("white")
         text = pygame.font.Font(None, 20).render(WINDOW_TEXT, True, "black")
         face.blit(text, text.get_rect(center=face.get_rect().center))
         pygame.display.flip()
-        self.pygame = pygame
 
     def keys(self) -> list[str]:
         """The keys that were pressed since the last call."""
@@ -455,33 +453,101 @@ class Window:
         if not self.why_shut:
             self.pygame.display.quit()
 
+@contextmanager
+def opened_window() -> Iterator[Window]:
+    """Open the window for the `with` block, and close it after it."""
+    # A display that does not answer hangs pygame, and Python with it. Then only the system's own
+    # handler of Ctrl-C ends the program.
+    with handled([signal.SIGINT], signal.SIG_DFL):
+        window = Window()
+    try:
+        yield window
+    finally:
+        with handled([signal.SIGINT], signal.SIG_DFL):
+            window.close()
+
 # ==== What the keys do ==========================================================================
 
 CTRL_C = "\x03"
 WHY_QUIT = {"x": "x was pressed", CTRL_C: "Ctrl-C was pressed", ESC: "Esc was pressed",
             CLOSED: "the window was closed", GONE: "the terminal is gone"}
-PAUSE_KEYS = ("p", "\x13")  # Ctrl-S
-ENTER_KEYS = ("\r", "\n")
+PAUSE_KEYS = ("p", "\x13", "\x11")  # Ctrl-S, and Ctrl-Q
+BEGIN_KEYS = ("\r", "\n", CTRL_C)
 READING_S = 10.0  # enough for the question. p holds the text for slower readers.
 READING_WITHOUT_KEYS_S = 3.0  # nobody can begin it earlier with Enter, so do not keep them
 LOOK_S = 0.05  # between two looks at the keys: too short to notice
-# The lesson that this program follows greets with it who begins a film by Ctrl-C.
+# Who begins a film by Ctrl-C is greeted with it, as in the lesson that this program follows.
 DIAMOND = "   *\n  * *\n *   *\n  * *\n   *"
 
 class Keys:
-    """The keys of a film: which were pressed, and what that means for the film."""
+    """What the keys have asked for: to begin the film, to pause it, to step, or to end it."""
 
     def __init__(self, window: Window) -> None:
         self.window = window
-        self.has_keys = HAS_TERMINAL or not window.why_shut
-        self.has_colours = (sys.stdout.isatty() and not os.environ.get("NO_COLOR")
-                            and os.environ.get("TERM", "dumb") != "dumb")
-        self.signals: list[str] = []  # Ctrl-C comes as a signal: kept until the next look
+        self.signals: list[str] = []  # Ctrl-C is a signal: kept until the next look
+        self.has_begun = False  # before the film some keys do other things
+        self.has_begun_by_ctrl_c = False
         self.why_quit = ""  # why the film is to end, or nothing
-        self.has_begun = False
-        self.shows_diamond = False  # in front of the film
         self.is_paused = False
         self.steps = 0  # frames to show although the film is paused
+        self.due_s = 0.0  # when the wait is over
+        self.reading_s = READING_S
+
+    def press(self, key: str) -> None:
+        """Act on a key."""
+        if key in BEGIN_KEYS and not self.has_begun:
+            self.has_begun = True
+            self.has_begun_by_ctrl_c = key == CTRL_C
+            self.is_paused = False
+            self.due_s = 0.0
+        elif key in WHY_QUIT:
+            self.why_quit = WHY_QUIT[key]
+        elif key in PAUSE_KEYS:
+            self.is_paused = not self.is_paused
+            self.steps = 0
+        elif key == "s":
+            self.has_begun = True
+            self.is_paused = True
+            self.steps += 1
+
+    def look(self) -> None:
+        """Act on the keys that were pressed since the last look."""
+        signals, self.signals = self.signals, []
+        for key in [*signals, *terminal_keys(), *self.window.keys()]:
+            self.press(key.lower())
+
+    def wait(self, due_s: float) -> bool:
+        """Wait for a moment of time.perf_counter(). Returns False if a key ended the wait."""
+        sys.stdout.flush()
+        self.due_s = due_s
+        self.look()
+        while not self.is_paused and not self.why_quit:
+            left_s = self.due_s - time.perf_counter()
+            if left_s <= 0:
+                return True
+            time.sleep(min(left_s, LOOK_S))
+            self.look()
+        return False
+
+    def hold(self, text: str) -> None:
+        """While it is paused, and nobody steps or quits, show the text on a terminal."""
+        text = text[:shutil.get_terminal_size().columns - 1]
+        print_for_now(text)
+        try:
+            while self.is_paused and self.steps == 0 and not self.why_quit:
+                time.sleep(LOOK_S)
+                self.look()
+        finally:
+            print_for_now(" " * len(text))
+
+    def wait_for_frame(self, due_s: float, text: str) -> bool:
+        """Wait until a frame is due or, in a pause, for a key. Returns whether it was no pause."""
+        was_timed = self.wait(due_s)
+        if not was_timed:
+            self.hold(text)
+        if self.steps > 0:
+            self.steps -= 1
+        return was_timed
 
     def texts_before(self, question: str) -> list[str]:
         """What to say before the film: where the keys are, the question, when the film begins."""
@@ -490,127 +556,39 @@ class Keys:
             places.append("here")
         if not self.window.why_shut:
             places.append("in the little window")
-        if self.has_keys:
+        if places:
             where = f"Keys {' and '.join(places)}: p pauses the film, s steps, x ends it."
             when = f"It begins in {READING_S:g} s, or now with Enter or Ctrl-C. p holds the text."
+            self.reading_s = READING_S
         else:
             where = "No keys here: Ctrl-C ends the film."
             when = f"It begins in {READING_WITHOUT_KEYS_S:g} s, or now with Ctrl-C."
+            self.reading_s = READING_WITHOUT_KEYS_S
         if self.window.why_shut:
             where += f" (No window: {self.window.why_shut}.)"
         return [where, question, when]
 
-    def press_ctrl_c(self, *_: object) -> None:
-        """Take the signal of Ctrl-C as a key."""
-        self.signals.append(CTRL_C)
-
-    def look(self) -> None:
-        """Act on the keys that were pressed since the last look."""
-        signals, self.signals = self.signals, []
-        for key in [*signals, *terminal_keys(), *self.window.keys()]:
-            self.press(key.lower())
-
-    def press(self, key: str) -> None:
-        """Act on a key."""
-        if key in (*ENTER_KEYS, CTRL_C) and not self.has_begun:
-            self.shows_diamond = key == CTRL_C
-            self.has_begun = True
-            self.is_paused = False
-            self.steps = 0
-        elif key in WHY_QUIT:
-            self.why_quit = WHY_QUIT[key]
-        elif key in PAUSE_KEYS:
-            self.is_paused = not self.is_paused
-            self.steps = 0
-        elif key == "s":
-            self.is_paused = True
-            self.steps += 1
-
     def leave_time(self) -> None:
-        """Leave time to read what stands before the film. Enter and s cut it short."""
-        reading_s = READING_S if self.has_keys else READING_WITHOUT_KEYS_S
-        ends_s = time.perf_counter() + reading_s
-        while not self.has_begun and not self.why_quit and self.steps == 0:
-            self.look()
-            if self.is_paused:
-                self.hold("the text is held: p lets go, Enter begins the film, x quits")
-            elif time.perf_counter() >= ends_s:
-                break
+        """Leave time to read these texts. Enter and s cut it short."""
+        ends_s = time.perf_counter() + self.reading_s
+        while not self.has_begun and not self.why_quit:
+            if self.wait(ends_s):
+                self.has_begun = True
             else:
-                time.sleep(LOOK_S)
-        self.has_begun = True
-        if self.shows_diamond:
+                self.hold("the text is held: p lets go, Enter begins the film, x quits")
+        if self.has_begun_by_ctrl_c:
             print(DIAMOND)
-
-    def wait_until(self, moment_s: float, frame: int, t_s: float) -> bool:
-        """Wait for a moment of time.perf_counter() and, if the film is paused, until it goes on.
-
-        frame and t_s say how far the film is. Returns whether the clock ended the wait: then it
-        tells how long the frame lasted. After a pause it does not.
-        """
-        sys.stdout.flush()
-        self.look()
-        while not self.is_paused and not self.why_quit:
-            remaining_s = moment_s - time.perf_counter()
-            if remaining_s <= 0:
-                return True
-            time.sleep(min(remaining_s, LOOK_S))
-            self.look()
-        self.hold(f"paused after frame {frame}, t = {t_s:.2f} s: p resumes, s steps, x quits")
-        self.steps = max(0, self.steps - 1)
-        return False
-
-    def hold(self, text: str) -> None:
-        """While somebody has paused it, wait. A terminal shows the text meanwhile."""
-        if not self.is_held():
-            return
-        text = text[:shutil.get_terminal_size().columns - 1]
-        try:
-            print_for_now(text)
-            while self.is_held():
-                time.sleep(LOOK_S)
-                self.look()
-        finally:
-            print_for_now(" " * len(text))
-
-    def is_held(self) -> bool:
-        """Whether it is paused, and nobody has asked for a step or for the end."""
-        return self.is_paused and self.steps == 0 and not self.why_quit
-
-class NoKeys:
-    """What takes the place of the keys with --fast: nothing waits, and nobody presses a key."""
-
-    has_colours = False
-    why_quit = ""
-
-    def texts_before(self, question: str) -> list[str]:
-        """What to say before the film: only the question."""
-        return [question]
-
-    def leave_time(self) -> None:
-        """Leave no time to read."""
-
-    def wait_until(self, moment_s: float, frame: int, t_s: float) -> bool:
-        """Do not wait. Returns False: the clock tells nothing."""
-        return False
 
 def print_for_now(text: str) -> None:
     """Print a text on a terminal, and go back to the start of its line: the next one covers it."""
-    if sys.stdout.isatty():
+    if text and sys.stdout.isatty():
         print(text, end="\r", flush=True)
 
 @contextmanager
 def taken_keys() -> Iterator[Keys]:
     """Take window and terminal for a film. Whatever ends the `with` block gives them back."""
-    # A display that does not answer hangs pygame, and Python with it. Only the system's own
-    # handler of Ctrl-C helps then. So Python's handlers come after the window.
-    before = set_handlers({signal.SIGINT: signal.SIG_DFL})
-    keys = Keys(Window())
-    set_handlers({signal.SIGINT: keys.press_ctrl_c})
-    before |= set_handlers(dict.fromkeys(ENDING_SIGNALS, end_by_signal))
-    try:
-        with taken_terminal():
+    with opened_window() as window:
+        keys = Keys(window)
+        with (handled([signal.SIGINT], lambda *_: keys.signals.append(CTRL_C)),
+              handled(ENDING_SIGNALS, end_by_signal), taken_terminal()):
             yield keys
-    finally:
-        keys.window.close()
-        set_handlers(before)
