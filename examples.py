@@ -88,9 +88,9 @@ EXAMPLES = {
         "right, time downwards. A constant acceleration draws parabolas there, as in a textbook, "
         "only turned by 90 degrees. The right wall cuts the first arc off. The first arcs are "
         "hundreds of lines long, and the last ones draw a tail. The film stops after 1878 "
-        "frames. (The car starts 5 cm beyond the left wall, and leaves it at 10 m/s. But whoever is "
-        "beyond a wall is reversed. So its velocity becomes -7.97 m/s in frame 1 and 6.41 m/s in "
-        "frame 2. The table compares it with a car that starts on the wall.)"),
+        "frames. (The car starts 5 cm beyond the left wall, and moves out of it at 10 m/s. But a "
+        "car that is beyond a wall is reversed. So its velocity is -7.97 m/s in frame 1 and 6.41 "
+        "m/s in frame 2. The table compares it with a car that starts on the wall.)"),
     5: Example("Where each collision was found", {
         "x_m": 2.0, "v_mps": 3.0, "a_mps2": 2.0, "CR": 0.7},
         "A 0 shows where the move alone put the car, beyond the wall. Where is the * in the same "
@@ -149,9 +149,10 @@ EXAMPLES = {
         "There is no last bounce. In truth the car bounces infinitely often before t = 11.91 s, "
         "the Zeno point, and then it lies still. The film calls the * at rest from 12.10 s on. "
         "Rewind can settle only one bounce a frame. So its car never lies still: with "
-        "auto_off=False it makes hops of some mm for ever, too low to see. With correction=replay it lies still from the Zeno point on. Rewind is good "
-        "enough for this scene: until the film ends it is at most about 4.2 mm off, less than a "
-        "quarter of a column. On a busy computer all these figures may be a little different."),
+        "auto_off=False it makes hops of some mm for ever, too low to see. With correction=replay "
+        "it lies still from the Zeno point on. Rewind is good enough for this scene: until the "
+        "film ends it is at most about 4.2 mm off, less than a quarter of a column. On a busy "
+        "computer all these figures may be a little different."),
     13: Example("Forward Euler beside the truth", {
         "x_m": 0.25, "v_mps": 2.48, "a_mps2": -2.0, "CR": 1.0, "motion": "forward",
         "fps_target": 10.0, "show_exact_mark": True},
@@ -212,9 +213,9 @@ EXAMPLES = {
         "One line shorter: the hops take 15, 14, 13 ... lines, down to 2 and 1, too low to see. "
         "In frame 136 the film calls the * at rest. A true car comes back each time as fast as it "
         "left. The * comes back slower, by 0.004 m/s and by 0.196 m/s in turn. (Hops of one line "
-        "begin at 0.098 and 0.102 m/s in turn: the car lies there, but its velocity does not "
-        "vanish.) With motion=exact it comes back faster, by 0.004 and 0.196 m/s in turn. Then the hops take 18, 19, 20 ... "
-        "lines for half a minute, until the * meets the right wall."),
+        "begin at 0.098 and 0.102 m/s in turn: the car lies, but its velocity is never 0.) With "
+        "motion=exact it comes back faster, by 0.004 and 0.196 m/s in turn. Then the hops take 18, "
+        "19, 20 ... lines for half a minute, until the * meets the right wall."),
     20: Example("Hops that lose speed, counted", {
         "x_m": 0.66, "v_mps": 0.75, "a_mps2": -2.0, "CR": 0.8, "motion": "exact",
         "fps_target": 10.0, "show_exact_mark": True},
