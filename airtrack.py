@@ -19,7 +19,7 @@ In a film, * is the car and | is a wall. < or > is the car, too, when it is out
 of the picture. If the car bounces, 0 is where the frame would have ended
 without walls. A . is the start. o is the true car. If you change the car or the
 track of an example, but not its frames, + is the car of the example as it is.
-a to e are the cars of five methods. After the film a table says which are right.
+a to e are the cars of five methods. After it a table says which are right.
 """
 # What is where?
 #     Sections 1 to 5    the demo: how a car moves and bounces, how a frame is drawn, and the main
@@ -526,7 +526,6 @@ def run(cars: dict[str, Car], scene: Scene, view: View, max_frames: int,
     """
     car = cars["*"]
     rest = Rest(car.track, scene.column_m())
-    rest.look(0.0, car.track.x_m, car.track.v_mps)
     pace = Pace(scene, keys)
     t_s = 0.0
     why = "that is the frame limit"
@@ -1169,7 +1168,7 @@ def tell_cars(cars: dict[str, Car], scene: Scene) -> None:
         rows.append(f"{mark} {method_text(car.track):20}{off:>15}{energies}")
         ends.append(end)
     print()
-    print("                        furthest from    energy in J/kg (0: it lies at its floor)")
+    print("                        furthest from    energy in J/kg (0: lies at its floor)")
     print("                       its own truth     first     least      most      last")
     for row in rows:
         print(row)

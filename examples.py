@@ -472,7 +472,7 @@ def opened_window() -> Iterator[Window]:
 CTRL_C = "\x03"
 WHY_QUIT = {"x": "x was pressed", CTRL_C: "Ctrl-C was pressed", ESC: "Esc was pressed",
             CLOSED: "the window was closed", GONE: "the terminal is gone"}
-PAUSE_KEYS = ("p", "\x13", "\x11")  # Ctrl-S, and Ctrl-Q
+CTRL_S, CTRL_Q = "\x13", "\x11"  # a terminal knows them as hold, and go on
 BEGIN_KEYS = ("\r", "\n", CTRL_C)
 READING_S = 10.0  # enough for the question. p holds the text for slower readers.
 READING_WITHOUT_KEYS_S = 3.0  # nobody can begin it earlier with Enter, so do not keep them
@@ -503,9 +503,11 @@ class Keys:
             self.due_s = 0.0
         elif key in WHY_QUIT:
             self.why_quit = WHY_QUIT[key]
-        elif key in PAUSE_KEYS:
+        elif key in ("p", CTRL_S):
             self.is_paused = not self.is_paused
             self.steps = 0
+        elif key == CTRL_Q:
+            self.is_paused = False
         elif key == "s":
             self.has_begun = True
             self.is_paused = True

@@ -13,7 +13,7 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from airtrack import FOR_COMMANDS, Car, Scene, main, planned_length
+from airtrack import COMPARED, Car, Track, main, planned_dt, scene_of, step, truth_of
 from examples import EXAMPLES, OWN_SCENE
 
 if sys.platform != "win32":
@@ -59,20 +59,30 @@ def environment(**changes: str | None) -> dict[str, str]:
 
 def filmed(number: int, frames: int, **changes: Any) -> Car:
     """The car of an example, or of one's own scene, with changes, after a --fast film."""
-    scene = Scene(**EXAMPLES.get(number, OWN_SCENE).settings | changes)
-    car = Car(scene)
+    scene = scene_of(EXAMPLES.get(number, OWN_SCENE).settings | changes)
+    car = Car(scene.track)
     for frame in range(1, frames + 1):
-        if scene.use_observed_dt:
-            car.move(planned_length(scene, frame))
-        else:
-            car.move(1 / scene.fps_target)
+        car.move(planned_dt(scene, frame))
     return car
 
-def compared(number: int, motion: str, correction: str) -> Scene:
+def true_m(car: Car) -> list[float]:
+    """Where the true car is in each of its frames: in one step from the start."""
+    truth = truth_of(car.track)
+    return [step(truth, truth.x_m, truth.v_mps, frame.t_s)[0] for frame in car.frames]
+
+def errors_m(car: Car) -> list[float]:
+    """How far to the right of its true car it is in each of its frames."""
+    return [frame.x_m - place_m for frame, place_m in zip(car.frames, true_m(car), strict=True)]
+
+def furthest_m(car: Car) -> float:
+    """How far the car was from its true car at most."""
+    return max(map(abs, errors_m(car)))
+
+def compared(number: int, motion: str, correction: str) -> Track:
     """An example as chart and map take it, with a method."""
     settings = EXAMPLES[number].settings
-    kept = {name: settings[name] for name in FOR_COMMANDS if name in settings}
-    return Scene(**kept, motion=motion, correction=correction)
+    kept = {name: settings[name] for name in COMPARED if name in settings}
+    return scene_of(kept | {"motion": motion, "correction": correction}).track
 
 def bounces(car: Car) -> list[int]:
     """The frames in which a collision was found."""

@@ -2,96 +2,156 @@
 
 import math
 import re
+from types import SimpleNamespace
+from typing import Any
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import airtrack
-from airtrack import METHODS, Frame, Point, Track, main, order_text, verdict
-from films import compared, filmed
+from airtrack import (
+    METHODS,
+    MOTIONS,
+    Point,
+    Record,
+    Track,
+    main,
+    order_text,
+    ten_records,
+    ten_true_runs,
+    verdict,
+    worst_of,
+)
+from films import compared, filmed, furthest_m, shown
 
 Capture = pytest.CaptureFixture[str]
+COLUMN_M = 1 / 55
+
+def records(number: int, motion: str, correction: str, fps: int) -> list[Record]:
+    """The ten runs of an example with a method."""
+    track = compared(number, motion, correction)
+    return ten_records(track, fps, ten_true_runs(track, fps))
+
+def largest_m(number: int, letter: str, fps: int) -> float:
+    """The chart's error of a method."""
+    return max(record.furthest_m() for record in records(number, fps=fps, **METHODS[letter]))
 
 # What is measured.
 
 def test_a_run_begins_at_the_truth_a_part_of_a_frame_later_and_lasts_20_s() -> None:
-    scene = compared(12, "backward", "rebound")
-    truth, begins_s = airtrack.truth_of(scene), 9 / 11 / 60
-    first, *others, last = airtrack.simulate(scene, 60, 9, 6)
-    assert len(others) == 199  # one is kept each 0.1 s
-    assert last.t_s == pytest.approx(20)
-    assert (first.x_m, first.v_mps) == airtrack.step(truth, 2.0, 0.0, begins_s)[:2]
-    assert last.true_m == pytest.approx(airtrack.step(truth, 2.0, 0.0, begins_s + 20)[0])
+    track = compared(12, "backward", "rebound")
+    truth = airtrack.truth_of(track)
+    record = records(12, "backward", "rebound", 60)[9]
+    begins_s = 9 / 11 / 60
+    assert record.states[0] == airtrack.step(truth, 2.0, 0.0, begins_s)[:2]
+    assert [len(record.states), len(record.true_states)] == [1201, 1201]
+    assert record.times_s[-1] == 20
+    last_m, _ = record.true_states[-1]
+    assert last_m == pytest.approx(airtrack.step(truth, 2.0, 0.0, begins_s + 20)[0])
 
-def test_in_example_12_a_b_and_c_have_order_1_and_d_has_order_2_and_e_no_error() -> None:
+def test_in_example_12_a_b_and_c_have_order_1_and_d_has_order_2() -> None:
     orders = []
-    for letter, method in METHODS.items():
-        scene = compared(12, *method)
-        coarse_m, fine_m = airtrack.largest_error_m(scene, 30), airtrack.largest_error_m(scene, 240)
-        if letter == "e":
-            assert fine_m == coarse_m == 0
-        else:
-            orders.append(math.log2(coarse_m / fine_m) / 3)  # the rate was doubled three times
+    for letter in "abcd":
+        # The rate is doubled three times.
+        orders.append(math.log2(largest_m(12, letter, 30) / largest_m(12, letter, 240)) / 3)
     assert [round(order) for order in orders] == [1, 1, 1, 2]
 
-@given(st.floats(0.5, 4), st.floats(1e-3, 0.02))
-def test_the_order_is_the_power_with_which_errors_get_smaller(order: float, first_m: float) -> None:
-    large = Point(5, 0.5, 1)  # as large as the track: it tells nothing of an order,
-    small = [Point(80, 1e-12, 1), Point(160, 0.0, 1)]  # and neither does round-off
-    points = [Point(10 * rate, first_m / rate**order, 1) for rate in (1, 2, 4)]
-    assert float(order_text([large, *points, *small], 1.0)) == pytest.approx(order, abs=0.051)
-    assert order_text([large, large, *points[:2]], 1.0) == "?"
-    assert order_text([Point(fps, 1e-12, 1) for fps in (10, 20, 40)], 1.0) == "none"
+def points(*errors_m: float, first_fps: int = 10) -> list[Point]:
+    """Points at one rate, at twice this rate, and so on."""
+    return [Point("a", first_fps * 2**n, error_m, 1) for n, error_m in enumerate(errors_m)]
 
-def test_the_cost_is_that_of_the_steps_of_a_simulated_second(
+@given(st.floats(0.5, 4), st.floats(1e-3, 0.02), st.sampled_from([1, 128]))
+def test_the_order_is_the_power_with_which_errors_get_smaller(
+        order: float, first_m: float, unit: int) -> None:
+    large = Point("a", 5, 0.5 * unit, 1)  # as large as the track: it tells nothing of an order,
+    small = points(1e-12 * unit, 0.0, first_fps=80)  # and neither does round-off
+    telling = points(*[unit * first_m / rate**order for rate in (1, 2, 4)])
+    assert float(order_text([large, *telling, *small], unit)) == pytest.approx(order, abs=0.051)
+    assert order_text([large, large, *telling[:2]], unit) == "?"
+    assert order_text([large, *small], unit) == "none"
+
+def test_the_cost_is_the_least_time_that_the_steps_of_a_simulated_second_take_each_in_its_turn(
         monkeypatch: pytest.MonkeyPatch) -> None:
-    steps = []
+    # A step of a takes 2 us, one of b 3 us, and so on, but in the first two rounds all take 9 us.
+    tracks = {letter: Track(x_m=number, **METHODS[letter])
+              for number, letter in enumerate(METHODS, start=2)}
+    now_us, turns, ends_m = [0.0], [], {}
 
-    def counted_step(*_: object) -> tuple[float, float, None]:
-        steps.append(1)
-        return 1.0, 0.0, None
+    def step(track: Track, x_m: float, v_mps: float, dt_s: float) -> tuple[float, float, None]:
+        assert dt_s == 1 / 30
+        if x_m == track.x_m:
+            turns.append(track.x_m)  # it begins at the start,
+        else:
+            assert x_m == ends_m[track.x_m]  # and goes on where the step before has ended
+        ends_m[track.x_m] = x_m + 0.25
+        now_us[0] += 9 if len(turns) <= 10 else track.x_m
+        return x_m + 0.25, v_mps, None
 
-    monkeypatch.setattr(airtrack, "step", counted_step)
-    monkeypatch.setattr("time.perf_counter", lambda: 2e-6 * len(steps))  # a step takes 2 us
-    assert airtrack.cost_us(Track(), 30) == pytest.approx(2 * 30)
+    monkeypatch.setattr(airtrack, "step", step)
+    monkeypatch.setattr(airtrack, "time", SimpleNamespace(perf_counter=lambda: 1e-6 * now_us[0]))
+    costs = airtrack.costs_us(tracks, 30)
+    assert costs == pytest.approx({"a": 2 * 30, "b": 3 * 30, "c": 4 * 30, "d": 5 * 30, "e": 6 * 30})
+    assert turns == [2, 3, 4, 5, 6] * (len(turns) // 5)
+    assert len(turns) >= 5 * 5
 
 # What the chart shows.
+
+def chart_of(words: str, monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> str:
+    """The chart, if a simulated second costs as many us as it has frames."""
+    monkeypatch.setattr(airtrack, "costs_us", lambda tracks, fps: dict.fromkeys(tracks, float(fps)))
+    monkeypatch.setenv("COLUMNS", "80")
+    main(["chart", *words.split()])
+    out = capsys.readouterr().out
+    table, _, command = out.rpartition("Next: ")
+    assert max(len(line) for line in table.splitlines()) <= 80
+    assert command.count("\n") == 1  # it is not broken
+    return out
 
 def test_the_chart_of_a_flight_of_20_s_has_the_errors_of_a_closed_form(
         monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
     monkeypatch.setattr(airtrack, "CHART_FPS", [10, 60, 240])
-    monkeypatch.setattr(airtrack, "cost_us", lambda track, fps: float(fps))
-    monkeypatch.setenv("COLUMNS", "80")
-    main(["chart", "99", "a_mps2=1", "left_edge_m=-1000", "right_edge_m=1000", "m_to_px=20"])
-    out = capsys.readouterr().out
-    assert max(len(line) for line in out.splitlines()) <= 80
+    words = "99 a_mps2=1 left_edge_m=-1000 right_edge_m=1000 m_to_px=20"
+    out = chart_of(words, monkeypatch, capsys)
     for fps in (10, 60, 240):
         row, = re.findall(rf"(?m)^ *{fps}  (\S.*)", out)
-        error_m, *others_m = [float(word) for word in row.split()[::2]]
-        assert error_m == pytest.approx(20 / fps / 2, rel=0.05)  # a t dt/2
-        assert max(others_m) < 1e-9
-    assert re.search(r"(?m)^order +1\.0 +none +none +none +none$", out)
-    assert re.findall(r"(?m)^  a .* from +(\d+) FPS on", out) == ["240"]  # a column is 5 cm
+        error_m, *others_m, no_error = row.split()[::2]
+        assert float(error_m) == pytest.approx(20 / fps / 2, rel=0.05)  # a t dt/2
+        assert max(map(float, others_m)) < 1e-9
+        assert no_error == "-"  # e is the truth
+        assert row.split()[1::2] == [str(fps)] * 5
+    assert re.search(r"(?m)^order +1\.0 +none +none +none +-$", out)
+    within = r"(?m)^([a-e]): .* from +(\d+) FPS on: +(\d+) us"
+    assert sorted(re.findall(within, out)) == [  # a column is 5 cm
+        ("a", "240", "240"), *[(letter, "10", "10") for letter in "bcde"]]
+    assert re.search(r"(?m)^a: .* 60 us, up to 0.17 m off$", out)
+    assert re.search(r"(?m)^e: .* 60 us, .*by definition$", out)
     scale, = re.findall(r"(?m)^.* 1 mm .*$", out)
     drawn_at, = {line.index("|") for line in out.splitlines() if "|" in line}
     assert scale.index("1 cm ") < drawn_at < scale.index("0.1 m ")
+    assert out.endswith(f"airtrack.py stability {words}\n")
 
 def test_the_answer_is_the_cheapest_rate_from_which_on_all_errors_are_within_a_column(
         capsys: Capture) -> None:
-    def series(frame_us: float, *errors_mm: float) -> list[Point]:
-        return [Point(10 * 2**n, errors_mm[n] / 1000, 10 * 2**n * frame_us) for n in range(4)]
+    def series(letter: str, frame_us: float, *errors_mm: float) -> list[Point]:
+        return [Point(letter, 15 * 2**n, error_mm / 1000, 15 * 2**n * frame_us)
+                for n, error_mm in enumerate(errors_mm)]
 
-    airtrack.print_answer({
-        "a": series(4, 30, 20, 9, 3), "b": series(2, 5, 20, 9, 9.9), "c": series(0.1, 9, 9, 9, 11),
-        "d": series(3, 1, 1, 1, 1), "e": series(1, 30, 30, 30, 9)}, 0.01)
-    told = re.findall(r"(?m)^  ([a-e]) .* from +(\d+) FPS on +(\d+) us", capsys.readouterr().out)
-    assert told == [("d", "10", "30"), ("b", "40", "80"), ("e", "80", "80"), ("a", "40", "160")]
+    airtrack.print_answers([
+        *series("a", 4, 30, 20, 9, 3), *series("b", 2, 5, 20, 9, 9.9),
+        *series("c", 0.1, 9, 9, 9, 11), *series("d", 3, 1, 1, 1, 1),
+        *series("e", 1, 0, 0, 0, 0)], 0.01)
+    _, *rows = capsys.readouterr().out.splitlines()
+    told = [re.findall(r"^([a-e]): .*?(?:from +(\d+) FPS on: +(\d+) us|at no rate) +(\d+) us", row)
+            for row in rows]
+    assert told == [[("e", "15", "15", "60")], [("d", "15", "45", "180")],
+                    [("b", "60", "120", "120")], [("a", "60", "240", "240")], [("c", "", "", "6")]]
 
 def test_the_picture_has_each_point_below_its_error_and_beside_its_cost(capsys: Capture) -> None:
-    airtrack.print_picture({
-        "a": [Point(10, 1e-3, 10), Point(20, 1e-2, 100)], "b": [Point(10, 1e-2, 100)],
-        "c": [Point(10, 0.0, 10)], "d": [Point(10, 1e9, 1)], "e": [Point(10, 1e-4, 100)] * 2}, 0.1)
+    airtrack.print_picture([
+        Point("a", 10, 1e-3, 10), Point("a", 20, 1e-2, 100), Point("b", 10, 1e-2, 100),
+        Point("c", 10, 0.0, 10), Point("d", 10, 1e9, 1), Point("e", 10, 1e-4, 100),
+        Point("e", 10, 1e-4, 100)], 0.1)
     out = capsys.readouterr().out
     scale, = re.findall(r"(?m)^.* 1 mm .*$", out)
     found = []
@@ -114,72 +174,103 @@ def test_the_picture_has_each_point_below_its_error_and_beside_its_cost(capsys: 
     ("-", 14, "exact", "replay", 1)])
 def test_each_letter_in_a_scene_of_which_it_is_known(
         letter: str, number: int, motion: str, correction: str, fps: int) -> None:
-    scene = compared(number, motion, correction)
-    assert airtrack.cell([verdict(scene, 1 / 55, fps, cut) for cut in range(10)]) == letter
+    letters = [verdict(record, COLUMN_M) for record in records(number, motion, correction, fps)]
+    assert worst_of(letters) == letter
 
-def fast(gain: float) -> dict[str, float]:
-    """Over a column off, with so many J/kg more than the true car, which is at 0.5 m."""
-    return {"x_m": 0.52, "v_mps": math.sqrt(2 * (0.5 + gain - 2 * 0.02))}
+# A run of 80 frames of 0.25 s. The track has 1 m, and a column is 1 cm. Both cars are at 0.5 m with
+# 1 m/s, but for what is changed in some of the frames. The last 5 s begin with frame 60.
+TRACK = Track(x_m=0.5, v_mps=1.0, a_mps2=-2.0, left_edge_m=0.0, right_edge_m=1.0)
+LATE = range(60, 81)
+FLIES, LIES = (0.5, 1.0), (0.0, 0.0)
 
-@pytest.mark.parametrize(("letter", "true_car_lies", "seconds", "values"), [
-    ("-", False, [3], {"x_m": 0.509}), ("P", False, [3], {"x_m": 0.489}),  # a column is 1 cm
-    ("P", False, [3], {"x_m": 1.99}), ("X", False, [3], {"x_m": 2.01}),  # the track has 1 m
-    ("P", False, [3], {"x_m": -0.99}), ("X", False, [3], {"x_m": -1.01}),
-    ("S", True, range(15, 21), {"x_m": -1e-9}), ("S", False, range(15, 21), {"x_m": 1.01}),
-    ("L", False, range(15, 20), {"x_m": -1e-9}), ("G", False, range(16, 21), {"x_m": 1.01}),
-    ("H", True, [20], {"x_m": 0.0011}), ("-", True, [20], {"x_m": 0.0009}),
-    ("-", True, [14], {"x_m": 0.505}), ("-", False, range(15, 21), {"x_m": 0.505, "true_mps": 0}),
-    # 1 % of v^2/2 + |a| * 1 m is 0.025 J/kg. The mean of the six frames of the last 5 s counts.
-    ("P", False, range(15, 21), fast(0.024)), ("G", False, range(15, 21), fast(0.026)),
-    ("P", False, range(15, 21), fast(-0.024)), ("L", False, range(15, 21), fast(-0.026)),
-    ("P", False, [17], fast(6 * 0.024)), ("G", False, [17], fast(6 * 0.026)),
-    ("P", False, range(15), fast(1)), ("-", False, range(15, 21), {"v_mps": 2.0}),
-    ("G", False, [20], {"true_m": 0.0, "true_mps": 0.0})])
-def test_the_bounds_of_the_letters(
-        letter: str, true_car_lies: bool, seconds: list[int], values: dict[str, float],
-        monkeypatch: pytest.MonkeyPatch) -> None:
-    frames = []
-    for second in range(21):
-        frame = Frame(second, 0.5, 1.0, None, 0.5, 1.0)
-        if true_car_lies and second >= 15:
-            frame = Frame(second, 0.0, 0.0, None, 0.0, 0.0)
-        if second in seconds:
-            frame = frame._replace(**values)
-        frames.append(frame)
-    monkeypatch.setattr(airtrack, "simulate", lambda *_: frames)
-    track = Track(v_mps=1.0, a_mps2=-2.0, left_edge_m=0.0, right_edge_m=1.0)
-    assert verdict(track, 0.01, 10, 0) == letter
+def fast(gain: float) -> tuple[float, float]:
+    """Two columns off, with so many J/kg more than the true car, which has 1.5."""
+    return 0.52, math.sqrt(2 * (0.5 + gain - 2 * 0.02))
+
+@pytest.mark.parametrize(("letter", "true_state", "frames", "state"), [
+    ("-", FLIES, [12], (0.509, 1.0)), ("P", FLIES, [12], (0.489, 1.0)),
+    ("P", FLIES, [12], (1.99, 1.0)), ("X", FLIES, [12], (2.01, 1.0)),
+    ("P", FLIES, [12], (-0.99, 1.0)), ("X", FLIES, [12], (-1.01, 1.0)),
+    ("S", LIES, LATE, (-1e-9, 1.0)), ("S", FLIES, LATE, (1.01, 1.0)),
+    ("L", FLIES, range(60, 80), (-1e-9, 1.0)), ("G", FLIES, range(61, 81), (1.01, 1.0)),
+    # Low is a 650th of 0.75 m, as 1.5 J/kg lift it so high: 1.15 mm. Ten frames are 2.5 s.
+    ("H", LIES, LATE, (0.0012, 0.0)), ("P", LIES, LATE, (0.0011, 0.0)),
+    ("G", LIES, range(71, 81), (0.0, 0.0)), ("H", LIES, range(72, 81), (0.0, 0.0)),
+    # 1 % of 1.5 J/kg is 0.015 J/kg. The mean of the last 5 s counts.
+    ("P", FLIES, LATE, fast(0.0149)), ("G", FLIES, LATE, fast(0.0151)),
+    ("P", FLIES, LATE, fast(-0.0149)), ("L", FLIES, LATE, fast(-0.0151)),
+    ("P", FLIES, [70], fast(21 * 0.0149)), ("G", FLIES, [70], fast(21 * 0.0151)),
+    ("P", FLIES, range(60), fast(1)), ("-", FLIES, LATE, (0.505, 2.0))])
+def test_the_bounds_of_the_letters(letter: str, true_state: tuple[float, float], frames: Any,
+                                   state: tuple[float, float]) -> None:
+    states, true_states = [FLIES] * 81, [FLIES] * 81
+    if true_state == LIES:
+        states[12] = (0.511, 1.0)  # over a column off
+    for frame in LATE:
+        true_states[frame] = true_state
+    for frame in frames:
+        states[frame] = state
+    record = Record(TRACK, [frame / 4 for frame in range(81)], states, true_states)
+    assert verdict(record, 0.01) == letter
+
+def test_a_true_car_that_moves_in_one_of_the_last_frames_does_not_lie_still() -> None:
+    true_states = [FLIES] * 61 + [LIES] * 20
+    record = Record(TRACK, [frame / 4 for frame in range(81)], [FLIES] * 81, true_states)
+    assert verdict(record, 0.01) == "G"
+
+@pytest.mark.parametrize(("frames", "letter"), [(8, "L"), (40, "S")])  # 3 and 11 of them are late
+def test_fewer_than_ten_frames_do_not_show_that_a_car_is_stuck(frames: int, letter: str) -> None:
+    states = [(-0.1, 0.0)] * (frames + 1)
+    times_s = [20 * frame / frames for frame in range(frames + 1)]
+    assert verdict(Record(TRACK, times_s, states, [FLIES] * (frames + 1)), 0.01) == letter
 
 @pytest.mark.parametrize(("letters", "letter"), [
-    ("XGL-", "x"), ("SHPP", "s"), ("HHGL", "h"), ("HH", "H"), ("GLP-", "W"), ("GL", "W"),
-    ("GP", "g"), ("LP", "l"), ("P-", "p"), ("PP", "P"), ("--", "-")])
+    ("XGL-", "x"), ("SHPP", "s"), ("HHGL", "h"), ("HH", "H"), ("GL", "W"), ("GLLG", "W"),
+    ("GLP-", "w"), ("GP", "g"), ("LP", "l"), ("P-", "p"), ("PP", "P"), ("--", "-")])
 def test_a_cell_is_the_worst_of_the_runs_and_small_if_only_some_are_so_bad(
         letters: str, letter: str) -> None:
-    assert airtrack.cell(list(letters)) == letter
+    assert worst_of(list(letters)) == letter
 
-def test_the_map_has_a_row_for_each_pair_and_fits_on_a_screen_with_its_key(
+def test_the_map_has_a_row_for_each_pair_and_fits_on_a_screen_with_its_key_and_a_prompt(
         monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
     monkeypatch.setenv("COLUMNS", "80")
     main(["stability", "10"])
     out = capsys.readouterr().out
     assert max(len(line) for line in out.splitlines()) <= 80
-    _, *screen = out.rpartition("\n\n")[2].splitlines()
-    rows, key = screen[:-8], screen[-8:]
-    assert len(rows) == 4 * len(airtrack.MOTIONS) + 2  # 14, which is 22 lines with the key
+    screen = out.rpartition("\n\n")[2].splitlines()
+    assert len(screen) <= 23
+    rows, key = screen[1:-8], screen[-8:-1]
+    assert len(rows) == 4 * len(MOTIONS) + 2
     for row in rows:
-        assert re.fullmatch(r"\w+ \+ \w+" + r" +[XxSsHhWGgLlPp-]" * 9, row)
-    assert [line[0] for line in key] == [*"XSHWGLP-"]
+        assert re.fullmatch(r"\w+ \+ \w+" + r" +[XxSsHhWwGgLlPp-]" * 9, row)
+    assert [line[0] for line in key] == [*"XSHGLP-"]
     assert re.search(r"(?m)^backward \+ rebound( +\S){3} +W ", out)  # at 10 FPS
 
-def test_film_chart_and_map_agree_on_what_is_within_a_column(
-        monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
-    monkeypatch.setattr(airtrack, "CHART_FPS", [10])
-    main(["chart", "10"])
-    row, = re.findall(r"(?m)^ +10  (\S.*)", capsys.readouterr().out)
-    for (motion, correction), word in zip(METHODS.values(), row.split()[::2], strict=True):
-        in_chart_m = float(word)
-        car = filmed(10, 200, motion=motion, correction=correction)  # one of the ten runs
-        in_film_m = max(frame.error_m() for frame in car.frames)
-        assert in_film_m - 1e-9 <= in_chart_m * 1.05  # two digits are printed
-        in_map = {verdict(compared(10, motion, correction), 1 / 55, 10, cut) for cut in range(10)}
-        assert (in_map == {"-"}) is (in_chart_m <= 1 / 55)
+# Film, chart and map agree.
+
+def told(words: str) -> str:
+    """The name of the verdict that a film has for its *."""
+    end = [line for line in shown(words).table if line.startswith("* ")][-1]
+    return end.rpartition("; ")[2]
+
+def test_film_chart_and_map_agree_on_what_is_within_a_column() -> None:
+    for letter in "abcd":
+        in_film_m = furthest_m(filmed(10, 200, **METHODS[letter]))  # one of the ten runs
+        in_chart_m = largest_m(10, letter, 10)
+        assert in_film_m <= in_chart_m + 1e-9
+        in_map = {verdict(record, COLUMN_M) for record in records(10, fps=10, **METHODS[letter])}
+        assert (in_map == {"-"}) is (in_chart_m <= COLUMN_M)
+
+@given(number=st.sampled_from([1, 2, 3, 8, 10, 13, 14, 18, 19, 20, 22]),
+       motion=st.sampled_from([*MOTIONS]), fps=st.sampled_from([1, 5, 10, 30, 60]),
+       correction=st.sampled_from(["none", "surface", "rebound", "conserve"]))
+@settings(max_examples=40)
+def test_a_film_has_the_verdict_of_the_first_of_the_map_s_ten_runs_whenever_it_is_ended(
+        number: int, motion: str, correction: str, fps: int) -> None:
+    track = compared(number, motion, correction)
+    scene = airtrack.scene_of(airtrack.EXAMPLES[number].settings)
+    first = ten_records(track, fps, ten_true_runs(track, fps))[0]
+    name, _ = airtrack.VERDICTS[verdict(first, scene.column_m())]
+    words = f"{number} motion={motion} correction={correction} fps_target={fps} auto_off=False"
+    for frames in (1, 7 * fps, 20 * fps, 33 * fps):
+        assert told(f"{words} --frames={frames}") == name

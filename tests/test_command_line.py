@@ -6,7 +6,6 @@ import re
 import subprocess
 import sys
 from contextlib import redirect_stderr, redirect_stdout
-from dataclasses import fields
 from itertools import permutations
 from pathlib import Path
 
@@ -15,11 +14,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import airtrack
-from airtrack import ALL_CORRECTIONS, COMMANDS, MOTIONS, Scene, main
+from airtrack import ALL_CORRECTIONS, COMMANDS, MOTIONS, SETTINGS, Scene, main
 from examples import EXAMPLES
 from films import COMMAND, HERE, environment, shown
-
-NAMES = [field.name for field in fields(Scene)]
 
 def ended(words: list[str]) -> tuple[object, str]:
     """The exit status of a command line, and what stands on standard error."""
@@ -33,9 +30,9 @@ def ended(words: list[str]) -> tuple[object, str]:
 # What is refused.
 
 @pytest.mark.parametrize(("words", "parts"), [  # what is wrong, and what is allowed
-    ("CR=7", "CR 7 0 1"), ("x_m=nan", "x_m nan -1000 1000"), ("v_mps=-1001", "v_mps -1001"),
+    ("CR=7", "CR 7 0 1"), ("x_m=nan", "x_m nan -10000 10000"), ("v_mps=-10001", "v_mps -10001"),
     ("fps_target=0.09", "fps_target 0.09 0.1 1000"), ("jitter=0.91", "jitter 0.91 0 0.9"),
-    ("m_to_px=0", "m_to_px 0.001 1000"), ("width_px=9", "width_px 9 10 1000"),
+    ("m_to_px=0", "m_to_px 0.0001 1000"), ("width_px=9", "width_px 9 10 1000"),
     ("width_px=99.5", "width_px 99.5 whole"), ("auto_off=yes", "auto_off yes True False"),
     ("motion=euler", "motion euler forward backward exact"),
     ("correction=bounce", "correction bounce none surface rebound conserve rewind replay"),
@@ -62,7 +59,7 @@ def test_wrong_input_ends_with_2_and_one_sentence_that_helps(words: str, parts: 
         assert part in error.removeprefix("airtrack.py: error: ")
 
 WORD = st.sampled_from(["d", "-d", "--fast", "--frames", "chart", "stability", "10", "-5", "CR="])
-SETTING = st.tuples(st.sampled_from([*NAMES, "fps"]), st.sampled_from("=:,"), st.text() | WORD)
+SETTING = st.tuples(st.sampled_from([*SETTINGS, "fps"]), st.sampled_from("=:,"), st.text() | WORD)
 
 @given(st.lists(WORD | st.text() | SETTING.map("".join) | st.from_regex("-{0,2}[a-z0-9=.]*")))
 def test_no_words_end_in_a_traceback(words: list[str]) -> None:
@@ -84,8 +81,8 @@ def test_h_names_every_setting_example_motion_and_correction_in_80_columns() -> 
         assert re.search(rf"(?m)^ +{number} +{re.escape(example.title)}$", text)
     for name in [*MOTIONS, *ALL_CORRECTIONS, *COMMANDS]:
         assert re.search(rf"(?m)^ +{name} +\w", text)
-    for field in fields(Scene):
-        assert re.search(rf"(?m)^ +{field.name} +{field.default} +\w", text)
+    for name, field in SETTINGS.items():
+        assert re.search(rf"(?m)^ +{name} +{field.default} +\w", text)
 
 @pytest.mark.parametrize(("words", "title"), [
     ("", "Example 1:"), ("10", "Example 10:"), ("23", "Your own"), ("-5", "Your own")])
@@ -101,7 +98,8 @@ def test_a_command_in_any_place_is_for_example_12_or_another_from_a_start_on_the
     monkeypatch.setitem(COMMANDS, command, lambda scene, _: asked.append(scene))
     for words in ([command], *permutations([command, "3", "CR=0.5"]), [command, "12", "x_m=5"]):
         assert main([*words]) == 0
-    starts = [(scene.x_m, scene.a_mps2, scene.CR) for scene in asked]
+    tracks = [scene.track for scene in asked]
+    starts = [(track.x_m, track.a_mps2, track.CR) for track in tracks]
     assert starts == [(2.0, -2.0, 0.8), *[(2.0, -1.5, 0.5)] * 6, (2.2, -2.0, 0.8)]
 
 # How it ends.

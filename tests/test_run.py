@@ -11,7 +11,7 @@ from clock import Clock, Play, plain
 from examples import EXAMPLES
 
 FREE = "99 d v_mps=10 right_edge_m=990"  # it meets no wall, so that steps_s() can tell its dt
-ENTER, CTRL_C, CTRL_S = "\r", "\x03", "\x13"
+ENTER, CTRL_C, CTRL_S, CTRL_Q = "\r", "\x03", "\x13", "\x11"
 NOW = {0: ENTER}  # begin at once: then frame 1 comes at 0.05 s, after a look at the keys
 
 def steps_s(out: str) -> list[float]:
@@ -56,15 +56,21 @@ def test_with_jitter_frames_are_irregular_and_a_fast_film_has_the_same(
     spread_s = [sorted(found_s)[place] for place in (0, 124, 249, 374, 498)]
     assert spread_s == pytest.approx([0.01, 0.055, 0.1, 0.145, 0.19], abs=0.003)
 
-@pytest.mark.parametrize("key", ["p", "P", CTRL_S])
+@pytest.mark.parametrize("keys", ["pp", "PP", CTRL_S * 2, CTRL_S + CTRL_Q, CTRL_S + "p"])
 def test_p_pauses_and_then_the_film_goes_on_without_a_race_or_a_leap(
-        key: str, clock: Clock, play: Play) -> None:
-    out = play(f"{FREE} fps_target=10 use_observed_dt=True", NOW | {1: key, 31: key, 32: "x"})
+        keys: str, clock: Clock, play: Play) -> None:
+    pauses, resumes = keys
+    out = play(f"{FREE} fps_target=10 use_observed_dt=True",
+               NOW | {0.5: CTRL_Q, 1: pauses, 31: resumes, 32: "x"})
     *others_s, longest_s = sorted(clock.lengths_s())
     assert others_s == pytest.approx([0.1] * 18, abs=0.002)
     assert longest_s == pytest.approx(30, abs=0.2)
     assert steps_s(out) == pytest.approx([0.1] * 19, abs=0.002)
     assert set(re.findall(r"FPS = +([0-9]+)", out)) == {"10"}
+
+def test_after_a_pause_the_next_frame_comes_at_once(clock: Clock, play: Play) -> None:
+    play("99 v_mps=1 fps_target=0.2", NOW | {6: "p", 9: "p", 15: "x"})
+    assert clock.frames_s == pytest.approx([0, 5, 9, 14], abs=0.2)
 
 def test_s_shows_a_frame_for_each_time_that_it_is_pressed_and_p_goes_on(
         clock: Clock, play: Play) -> None:

@@ -42,8 +42,9 @@ def test_an_exception_in_a_film_is_shown_and_leaves_the_terminal_as_found() -> N
 
 @pytest.mark.parametrize(("key", "status"), [("SIGTERM", 143), ("x", 0)])
 def test_while_a_film_ends_a_signal_is_ignored(key: str, status: int) -> None:
-    change = ("real = examples.termios.tcsetattr; examples.termios.tcsetattr = "
-              "lambda *words: [os.kill(os.getpid(), 1), real(*words)]")  # 1 is SIGHUP
+    change = ("real, flush = examples.termios.tcsetattr, examples.termios.TCSAFLUSH; "
+              "examples.termios.tcsetattr = lambda file, when, mode: ["
+              "when == flush and os.kill(os.getpid(), 1), real(file, when, mode)]")  # 1 is SIGHUP
     with Terminal(*quick(change), "0", "d") as terminal:
         terminal.until(FRAME)
         terminal.press(key)

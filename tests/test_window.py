@@ -4,6 +4,7 @@ import importlib.util
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -20,8 +21,8 @@ from films import COMMAND, PATIENCE_S, Terminal, environment, quick
 HAS_PYGAME = importlib.util.find_spec("pygame") is not None
 
 @pytest.fixture(scope="module")
-def screen() -> Iterator[str]:
-    """The name of an X server without a window manager."""
+def server() -> Iterator[tuple[str, int]]:
+    """The name and the process of an X server without a window manager."""
     if not (HAS_PYGAME and shutil.which("Xvfb") and shutil.which("xdotool")):
         pytest.skip("needs pygame, Xvfb and xdotool")
     read, write = os.pipe()
@@ -30,8 +31,12 @@ def screen() -> Iterator[str]:
                            "-noreset"], pass_fds=[write], stderr=subprocess.DEVNULL) as server:
         os.close(write)
         with os.fdopen(read) as pipe:
-            yield f":{pipe.readline().strip()}"
+            yield f":{pipe.readline().strip()}", server.pid
         server.terminate()
+
+@pytest.fixture
+def screen(server: tuple[str, int]) -> str:
+    return server[0]
 
 def xdotool(screen: str, words: str) -> str:
     return subprocess.run(["xdotool", *words.split()], env=environment(DISPLAY=screen), text=True,
@@ -85,8 +90,8 @@ def test_other_keys_in_the_window_do_nothing_and_those_of_the_terminal_work(scre
 def test_closing_the_window_ends_the_film_and_after_a_film_the_window_is_shut(screen: str) -> None:
     # A click on its x would post this event. But Xvfb has no window manager, so nothing to click.
     click = "pygame.event.post(pygame.event.Event(pygame.QUIT))"
-    change = (f"import pygame; step, real = airtrack.step, airtrack.main; "
-              f"airtrack.step = lambda *words: [{click}, step(*words)][1]; "
+    change = (f"import pygame; draw, real = airtrack.render_track, airtrack.main; "
+              f"airtrack.render_track = lambda *words: [{click}, draw(*words)][1]; "
               "airtrack.main = lambda: [real(), print('it is ov' + 'er', flush=True), input()][0]")
     with Terminal(*quick(change, pause_s=1e6), DISPLAY=screen, SDL_VIDEODRIVER=None) as film:
         find_window(screen, film)
@@ -97,17 +102,37 @@ def test_closing_the_window_ends_the_film_and_after_a_film_the_window_is_shut(sc
         film.press("\n")
         film.ends(0)
 
+def test_if_the_window_cannot_be_closed_because_its_screen_is_frozen_ctrl_c_ends_the_program(
+        server: tuple[str, int]) -> None:
+    name, process = server
+    change = ("real = examples.Window.close; examples.Window.close = lambda window: "
+              "[print('clo' + 'sing', flush=True), input(), real(window)]")
+    with Terminal(*quick(change), "0", "--frames=1", DISPLAY=name, SDL_VIDEODRIVER=None) as film:
+        film.until("closing")
+        os.kill(process, signal.SIGSTOP)
+        try:
+            film.press("\n")
+            while film.read(1):
+                pass
+            assert film.program.poll() is None  # it hangs
+            film.press("SIGINT")
+            film.ends(-signal.SIGINT)
+        finally:
+            os.kill(process, signal.SIGCONT)
+
 @pytest.mark.skipif(sys.platform != "linux" or not HAS_PYGAME, reason="needs X11, and pygame")
 @pytest.mark.parametrize(("option", "display", "driver", "reason"), [
     ("-S", ":0", None, "pygame"),  # without what pip has installed
-    ("-u", ":0", None, "worm-eaten"),  # with what stands below in its place
+    ("-u", ":0", None, "rotten"),  # with what stands below in its place
+    ("-u", ":0", None, "OSError"),
     ("-u", None, None, "display"), ("-u", ":0", "dummy", "display"),
     ("-u", ":0", "offscreen", "display"), ("-u", ":4711", None, "x11")])
 def test_without_a_window_a_film_says_why_and_goes_on(
         option: str, display: str | None, driver: str | None, reason: str, tmp_path: Path) -> None:
-    broken = "import warnings; warnings.warn('old wood'); raise OSError('worm-eaten')"
-    if reason == "worm-eaten":
-        (tmp_path / "pygame.py").write_text(broken)
+    broken = {"rotten": "import warnings; warnings.warn('old wood'); raise OSError('rotten')",
+              "OSError": "raise OSError"}  # which does not say why
+    if reason in broken:
+        (tmp_path / "pygame.py").write_text(broken[reason])
     with Terminal(COMMAND[0], option, COMMAND[1], "0", "d", DISPLAY=display, SDL_VIDEODRIVER=driver,
                   PYTHONPATH=str(tmp_path)) as film:
         film.press("\r")
