@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Air track: a car between two walls, drawn as one line of text for each frame.
-So its film is a graph: position to the right, time downwards.
+The lines stand below each other. So the film is a graph: position to the right,
+time downwards.
 
 A WORD is one of these, in any order:
-    EXAMPLE      the number of an example (if you give none: for a film 1, for
-                 chart and stability 12)
+    EXAMPLE      the number of an example. Without it, a film shows example 1,
+                 and chart and stability take example 12.
     d            details after each line: position x, velocity v, frame rate FPS
                  and, if the true car o is drawn, err: how far the car is to the
                  right of the o
@@ -16,10 +17,11 @@ A WORD is one of these, in any order:
 For example: python airtrack.py 10 d CR=0.9
 
 In a film, * is the car and | is a wall. < or > is the car, too, when it is out
-of the picture. If the car bounces, 0 is where the frame would have ended
-without walls. A . is the start. o is the true car. If you change the car or the
-track of an example, but not its frames, + is the car of the example as it is.
-a to e are the cars of five methods. After it a table says which are right.
+of the picture. If the car bounces, 0 is where it would be now without the wall.
+A . is the start. o is the true car. + is the car of the example as it is, if
+you have changed something that moves the car, but not the frames. a to e are
+the cars of five methods. A table after the film says which cars are right. The
+floor is the wall to which the car is accelerated.
 """
 # What is where?
 #     Sections 1 to 5    the demo: how a car moves and bounces, how a frame is drawn, and the main
@@ -39,7 +41,6 @@ import shutil
 import sys
 import textwrap
 import time
-from bisect import bisect_left, bisect_right
 from contextlib import nullcontext
 from dataclasses import dataclass, field, fields, replace
 from itertools import pairwise, takewhile
@@ -56,8 +57,8 @@ from examples import CHANGED, CHANGED_FRAMES, EXAMPLES, OWN_SCENE, Example, Keys
 #     a_mps2   the acceleration of the car in m/s^2. It is the same all the time.
 #     dt_s     the time step in s: how much time passes for the car in a frame.
 #
-# The velocity changes during the frame. Euler's methods ignore this change: they move the car at
-# one velocity through the whole frame. The method forward takes the velocity at the start of the
+# The velocity changes during the frame. Euler's methods move the car as if it did not: at one
+# velocity through the whole frame. The method forward takes the velocity at the start of the
 # frame, and backward takes the velocity at its end. Both are of first order: half the dt makes
 # half the error after a given time. The method exact has no error, because a is constant.
 # For a constant a, backward is the same as the method that is called semi-implicit Euler.
@@ -80,18 +81,19 @@ def exact(x_m: float, v_mps: float, a_mps2: float, dt_s: float) -> State:
     """Kinematics: x + v dt + a dt^2/2, and v + a dt. No step changes the energy E."""
     return x_m + v_mps * dt_s + a_mps2 * dt_s * dt_s / 2, v_mps + a_mps2 * dt_s
 
-# If you write another motion, name it here. Then film and map know it. Three things it does not
-# get: a true car of its own (the o keeps its constant a), a place in the chart (see METHODS in
-# section 6), and the corrections rewind and replay (they need the exact motion).
+# If you write another motion, name it here. Then you can watch it in films, and the map has it.
+#     Its true car does not change: the o is always moved with the constant acceleration a.
+#     The chart does not have it: it compares METHODS (section 6).
+#     The corrections rewind and replay refuse it: they need the motion exact.
 MOTIONS = {"forward": forward, "backward": backward, "exact": exact}
 
 # ==== 2. Colliding ==============================================================================
 # Where is the car after it has met a wall, and how fast is it?
 #
 # A collision is found when a move has ended beyond a wall. Then a correction gives the car a new
-# place and a new velocity. (Without it the car may stick in the wall, so the lesson that this
-# program follows calls it a stickiness correction.) The correction need not know which of the two
-# walls it is, because it counts from the wall, and into the wall:
+# velocity and, if it is a good one, a new place. (The lesson that this program follows calls it a
+# stickiness correction: with a bad one the car sticks in the wall.) It is the same for both walls,
+# because step() hands it a depth and a velocity that count from the wall, and into the wall:
 #
 #     depth_m       how far the car is beyond the wall. In front of the wall, depth_m is negative.
 #     inward_mps    the velocity of the car. It is positive if the car moves into the wall.
@@ -100,7 +102,7 @@ MOTIONS = {"forward": forward, "backward": backward, "exact": exact}
 #
 # Here is one collision at the left wall. There, inward is to the left. The motion is exact,
 # inward_mps2 is 20, CR is 0.8, and a column is 1 cm. In one frame of 0.1 s the car moves from the
-# start to the 0, which is 8 cm beyond the wall. Then each correction gives the car a new place (*).
+# start to the 0, which is 8 cm beyond the wall. Then each correction puts the car where the * is.
 # E is the energy in J/kg: v^2/2 - a * depth, where v is inward_mps and a is inward_mps2.
 #
 #                                            depth_m   inward_mps   E
@@ -113,8 +115,9 @@ MOTIONS = {"forward": forward, "backward": backward, "exact": exact}
 #     rewind     0       |    *              -0.048      -1.33     1.86
 #
 # A bounce, at depth 0, keeps the part CR of the speed, so CR^2 of the energy: 0.64 * 2.90 is 1.86.
-# Surface settles the place. Conserve settles the energy, too. Rewind settles the moment, too: of
-# these five only rewind puts the car where a true car is at the end of this frame.
+# With surface the car is at least on the track. With conserve its energy is right, too. With rewind
+# the moment of the bounce is right, too. So of these five only rewind puts the car where a true car
+# is at the end of this frame.
 #
 # The five corrections of this section take the same four arguments, and return a new depth_m and a
 # new inward_mps. So step() can call any of them.
@@ -122,21 +125,21 @@ MOTIONS = {"forward": forward, "backward": backward, "exact": exact}
 Contact = tuple[float, float]  # depth_m and inward_mps
 
 def none(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> Contact:
-    """Reverse the velocity, but leave the car beyond the wall, where it may be caught.
+    """Reverse the velocity, times CR, but leave the car beyond the wall, where it may be caught.
 
     In example 3 the motion is backward, inward_mps2 is 1.5, dt is 1/30 s, and CR is 0.6. Rounded:
         frame 46   The move ends 5.17 cm deep.   inward_mps changes from  2.30 to -1.38.
         frame 47   The move ends 0.73 cm deep.   inward_mps changes from -1.33 to  0.80.
         frame 48   The move ends 3.56 cm deep.   inward_mps changes from  0.85 to -0.51.
-    In frame 47 the car was still beyond the wall, because the bounce had slowed it. So its velocity
-    was reversed again, now into the wall. The same happens in frame 49, and so on: the car is
+    In frame 47 the car is still beyond the wall, because the bounce has slowed it. So its velocity
+    is reversed again, now into the wall. The same happens in frame 49, and so on: the car is
     caught, and the acceleration makes it sink. Such a car is said to stick. The other corrections
     prevent this.
     """
     return depth_m, -CR * inward_mps
 
 def surface(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> Contact:
-    """Put the car on the wall, with its velocity reversed.
+    """Put the car on the wall, and reverse its velocity, times CR.
 
     If the acceleration points into the wall, surface lifts the car against it. That should cost
     speed, but surface does not slow the car. So with the exact motion, and a CR above 0, the car
@@ -145,23 +148,23 @@ def surface(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) ->
     return 0.0, -CR * inward_mps
 
 def rebound(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> Contact:
-    """Put the car in front of the wall, CR * depth away.
+    """Put the car in front of the wall, CR * depth away, and reverse its velocity, times CR.
 
-    Without an acceleration this is right: in the time in which the move went on into the wall, the
-    true car went back, CR times as fast. If the acceleration points into the wall, rebound leaves
-    too much energy where surface does. If CR * depth is longer than the track, the car is thrown
-    out at the other end (example 14).
+    Without an acceleration this is right for one bounce in a frame: while the move went on into the
+    wall, the true car went back, CR times as fast. If the acceleration points into the wall,
+    rebound leaves too much energy, as surface does. If CR * depth is longer than the track, the car
+    is thrown out at the other end (example 14).
     """
     return -CR * depth_m, -CR * inward_mps
 
 def conserve(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> Contact:
     """Put the car on the wall, as surface does, but with the speed that the energy allows.
 
-    With the exact motion the energy is right after each bounce whose move ends beyond the wall.
+    With the exact motion the energy is right if a frame holds one bounce, and ends beyond the wall.
     Only the moment is wrong: the car leaves the wall at the end of the frame, up to a frame late.
     """
     # Take the car back to the wall. E does not change, so its speed w there follows from
-    # w^2 = v^2 - 2 a depth. Round-off may make this negative, and so may the motion backward or a
+    # w^2 = v^2 - 2 a depth. This may be negative by round-off, with the motion backward, or after a
     # start beyond the wall. The bounce leaves the speed CR w.
     w_squared = max(0.0, inward_mps * inward_mps - 2 * inward_mps2 * depth_m)
     return 0.0, -CR * math.sqrt(w_squared)  # 1.93 m/s in the drawn collision
@@ -185,21 +188,23 @@ def arrival(d_m: float, u_mps: float, a_mps2: float) -> tuple[float, float]:
 def rewind(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> Contact:
     """Take the car back in time to the wall, let it bounce, and move it on to the frame's end.
 
-    With the exact motion this is right if the frame holds one bounce and the move ends beyond the
-    wall. So in example 10, where CR is 1, the car comes back to its start each time. Rewind cannot
-    settle a second bounce. So a car that should lie still on the wall never does so exactly: in
-    example 12 it goes on to hop some mm high. If the car turns beyond the wall and is back on the
-    track when the frame ends, no collision is found: a missed event (example 18). In a frame in
-    which the car should cross the whole track, rewind may throw it out, too.
+    With the exact motion this is right if a frame holds one bounce, and ends beyond the wall. So in
+    example 10, where CR is 1, the car comes back to its start each time. There are three faults:
+        Rewind cannot settle a second bounce. So a car that should lie still keeps a velocity. In
+        irregular frames it goes on to hop, in example 12 by some mm.
+        The car may turn beyond the wall, and be back on the track when the frame ends. Then no
+        collision is found: a missed event (example 18).
+        In a frame in which the car should cross the whole track, it may be thrown out.
     """
-    # How long ago did the car pass the wall, and how fast? Let time run backwards: then the car
-    # moves out of the wall, at inward_mps. Time does not turn its acceleration round. But counted
-    # out of the wall, and no longer into it, this is -inward_mps2.
+    # How long ago did the car pass the wall, and how fast? Let time run backwards. Then the car
+    # moves out of the wall, at inward_mps. Its acceleration is the same in both directions of time.
+    # But it counts out of the wall now, so it is -inward_mps2.
     late_s, met_mps = arrival(depth_m, inward_mps, -inward_mps2)  # 0.030 s, 2.41 m/s
     # Run it forwards again, from the wall, after the bounce, for the same time.
     new_depth_m, new_inward_mps = exact(0.0, -CR * met_mps, inward_mps2, late_s)
-    # If the car is in the wall again, there was a second bounce. Put it on the wall, at this speed,
-    # and leave the second bounce to the next frame. (So it has a little too much energy.)
+    # If the car is in the wall again, there was a second bounce. Put the car on the wall, at the
+    # speed that it has there, and leave the second bounce to the next frame. (In the wall the car
+    # was faster than on it. So this leaves a little too much energy.)
     return min(new_depth_m, 0.0), new_inward_mps
 
 CORRECTIONS = {"none": none, "surface": surface, "rebound": rebound, "conserve": conserve,
@@ -212,26 +217,26 @@ EXACT_ONLY = ["rewind", "replay"]  # they need the exact motion
 # ==== 3. A frame ================================================================================
 # How does the car get from one frame to the next?
 
-def setting(default: Any, meaning: str, *allowed: Any) -> Any:
-    """A setting: its default, its meaning, and what it may be.
+def number(default: float, meaning: str, least: float, largest: float) -> Any:
+    """A setting that is a number. The dataclass keeps what it may be, as metadata of its field."""
+    return field(default=default, metadata={"meaning": meaning, "range": (least, largest)})
 
-    A number may be anything from allowed[0] to allowed[1], and the others are one of allowed. A
-    dataclass keeps them as the metadata of its fields. Section 10 reads them there.
-    """
-    return field(default=default, metadata={"meaning": meaning, "allowed": allowed})
+def choice(default: Any, meaning: str, *choices: Any) -> Any:
+    """A setting that is one of several words, or True or False. (Section 10 reads the metadata.)"""
+    return field(default=default, metadata={"meaning": meaning, "choices": choices})
 
 @dataclass(frozen=True)  # frozen: nothing can change it. replace() makes a changed copy.
 class Track:
     """The track and its car: all that the physics needs to know."""
 
-    x_m: float = setting(1.1, "start position in m", -10_000, 10_000)
-    v_mps: float = setting(0.0, "start velocity in m/s: below 0 to the left", -10_000, 10_000)
-    a_mps2: float = setting(0.0, "acceleration in m/s^2: below 0 to the left", -10_000, 10_000)
-    left_edge_m: float = setting(0.25, "position of the left wall in m", -10_000, 10_000)
-    right_edge_m: float = setting(2.2, "position of the right wall in m", -10_000, 10_000)
-    CR: float = setting(0.8, "speed after a bounce / speed before it", 0, 1)
-    motion: str = setting("backward", "how the car is moved", *MOTIONS)
-    correction: str = setting("rebound", "how a collision is settled", *ALL_CORRECTIONS)
+    x_m: float = number(1.1, "start position in m", -10_000, 10_000)
+    v_mps: float = number(0.0, "start velocity in m/s: below 0 to the left", -10_000, 10_000)
+    a_mps2: float = number(0.0, "acceleration in m/s^2: below 0 to the left", -10_000, 10_000)
+    left_edge_m: float = number(0.25, "position of the left wall in m", -10_000, 10_000)
+    right_edge_m: float = number(2.2, "position of the right wall in m", -10_000, 10_000)
+    CR: float = number(0.8, "speed after a bounce / speed before it", 0, 1)
+    motion: str = choice("backward", "how the car is moved", *MOTIONS)
+    correction: str = choice("rebound", "how a collision is settled", *ALL_CORRECTIONS)
 
     def length_m(self) -> float:
         """The distance between the walls."""
@@ -288,6 +293,11 @@ class Frame(NamedTuple):
     v_mps: float
     mark_m: float | None
 
+def next_frame(track: Track, last: Frame, dt_s: float) -> Frame:
+    """The frame after the last one."""
+    x_m, v_mps, mark_m = step(track, last.x_m, last.v_mps, dt_s)
+    return Frame(last.t_s + dt_s, dt_s, x_m, v_mps, mark_m)
+
 class Car:
     """A car on a track. It keeps its frames, so that one can tell later what happened."""
 
@@ -297,41 +307,30 @@ class Car:
 
     def move(self, dt_s: float) -> None:
         """Make a frame of dt_s, and keep it."""
-        last = self.frames[-1]
-        x_m, v_mps, mark_m = step(self.track, last.x_m, last.v_mps, dt_s)
-        self.frames.append(Frame(last.t_s + dt_s, dt_s, x_m, v_mps, mark_m))
-
-    def times_s(self) -> list[float]:
-        """When each of its frames ended."""
-        return [frame.t_s for frame in self.frames]
-
-    def states(self) -> list[State]:
-        """Its place and its velocity in each of its frames."""
-        return [(frame.x_m, frame.v_mps) for frame in self.frames]
+        self.frames.append(next_frame(self.track, self.frames[-1], dt_s))
 
 # ==== 4. Drawing ================================================================================
 # How does a frame become a line of text, and why text?
 #
-# Nothing stands between the physics and the eye. Take a place in m, count it from the left edge of
-# the picture, multiply it by m_to_px, and round it: this is a column of the line. And each line
-# stays where it was printed, below the line before it. So the film on the screen is the graph of
-# the motion.
+# With text there is nothing between the physics and the eye. Take a place in m, count it from the
+# left edge of the picture, multiply it by m_to_px, and round it: this is a column of the line. And
+# each line is printed below the line before it. So the film is the graph of the motion.
 
 @dataclass(frozen=True)
 class Scene:
     """A track, and how it is filmed."""
 
     track: Track = Track()
-    fps_target: float = setting(30.0, "frames a second, 1/dt", 0.1, 1000)
-    use_observed_dt: bool = setting(False, "dt is how long the frame lasted", False, True)
-    jitter: float = setting(0.0, "frames vary by up to this part", 0, 0.9)
-    auto_off: bool = setting(True, "stop when the car is at rest", False, True)
-    m_to_px: float = setting(55.0, "zoom in columns for each m", 0.0001, 1000)
-    width_px: int = setting(135, "width of the picture in columns", 10, 1000)
-    show_start_mark: bool = setting(False, "draw a . at the start", False, True)
-    show_collision_mark: bool = setting(True, "draw a 0 where a move ended", False, True)
-    show_exact_mark: bool = setting(False, "draw an o for the true car", False, True)
-    show_methods: bool = setting(False, "draw a to e for five methods", False, True)
+    fps_target: float = number(30.0, "frames a second, 1/dt", 0.1, 1000)
+    use_observed_dt: bool = choice(False, "dt is how long the frame lasted", False, True)
+    jitter: float = number(0.0, "frames vary by up to this part", 0, 0.9)
+    auto_off: bool = choice(True, "stop when the car is at rest", False, True)
+    m_to_px: float = number(55.0, "zoom in columns for each m", 0.0001, 1000)
+    width_px: int = number(135, "width of the picture in columns", 10, 1000)
+    show_start_mark: bool = choice(False, "draw a . at the start", False, True)
+    show_collision_mark: bool = choice(True, "draw a 0 where a move ended", False, True)
+    show_exact_mark: bool = choice(False, "draw an o for the true car", False, True)
+    show_methods: bool = choice(False, "draw a to e for five methods", False, True)
 
     def column_m(self) -> float:
         """How wide a column of the film is."""
@@ -380,7 +379,7 @@ COLOURED_MARKS = str.maketrans({
 })
 
 class View(NamedTuple):
-    """How the lines of a film look. In a narrow terminal its scene is smaller than the film's."""
+    """How a film is printed. In a narrow terminal the scene of the view is smaller."""
 
     scene: Scene
     has_details: bool
@@ -406,14 +405,15 @@ REST_FRAMES = 10  # at a low frame rate 0.3 s may be a single frame
 ROUND_OFF_S = 1e-9  # times are sums of many dt, so the last digits are not to be trusted
 
 class Rest:
-    """Watches a car, and knows since when it is at rest.
+    """Watches a car, frame by frame, and knows since when it is at rest.
 
-    In most films the rule is: for 0.3 s and ten frames the car has been on the track and at most
-    3 mm above its floor. The 3 mm are a 650th of the height that the car can reach. If half a
-    column of the film is less, the car must be as low as that. If the acceleration is small, 0.3 s
-    are too short: a car that only passes by must be gone before the time is over. So the time is at
-    least that of a hop which is as high as this. Without an acceleration there is no floor. Then
-    the car is at rest if it stands still on the track.
+    At rest means: for 0.3 s and for ten frames the car was on the track, and low in each frame.
+        low:     It is at most 3 mm above its floor. In other scenes than the lesson's this is a
+                 650th of the height that the car can reach. If half a column of the film is less
+                 than that, it is half a column.
+        0.3 s:   If the acceleration is small, the time is longer: it is the time of a hop that is
+                 just low. So a car that only passes by is gone before the time is over.
+    Without an acceleration there is no floor. Then v must be 0 in each frame.
     """
 
     def __init__(self, track: Track, column_m: float) -> None:
@@ -429,37 +429,36 @@ class Rest:
             # Half of the hop is a fall from its top: low = g (hop/2)^2/2.
             hop_s = 2 * math.sqrt(2 * self.low_m / g_mps2)
             self.needed_s = max(REST_S, hop_s)
-        self.began_s = 0.0  # since when it lies, if it does
+        self.began_s = 0.0  # when it began to lie
         self.frames = 0  # for how many frames it has been lying
 
-    def look(self, t_s: float, x_m: float, v_mps: float) -> bool:
-        """Look at the car in one frame after the other. Returns whether it is at rest now."""
+    def look(self, frame: Frame) -> bool:
+        """Look at the car in its next frame. Returns whether it is at rest now."""
         if self.track.a_mps2 == 0:
-            is_low = v_mps == 0
+            is_low = frame.v_mps == 0
         else:
-            is_low = abs(x_m - self.track.floor_m()) <= self.low_m
-        if not is_low or not self.track.has_on_it(x_m):
+            is_low = abs(frame.x_m - self.track.floor_m()) <= self.low_m
+        if not is_low or not self.track.has_on_it(frame.x_m):
             self.frames = 0
             return False
         if self.frames == 0:
-            self.began_s = t_s
+            self.began_s = frame.t_s
         self.frames += 1
-        lay_s = t_s - self.began_s
+        lay_s = frame.t_s - self.began_s
         return self.frames >= REST_FRAMES and lay_s >= self.needed_s - ROUND_OFF_S
 
-def rest_began_s(track: Track, times_s: list[float], states: list[State],
-                 column_m: float) -> float | None:
-    """Since when a car with these states at these times is at rest, or None if it is not."""
+def rest_began_s(track: Track, frames: list[Frame], column_m: float) -> float | None:
+    """Since when a car with these frames is at rest, or None if it is not."""
     rest = Rest(track, column_m)
     is_at_rest = False
-    for t_s, (x_m, v_mps) in zip(times_s, states, strict=True):
-        is_at_rest = rest.look(t_s, x_m, v_mps)
+    for frame in frames:
+        is_at_rest = rest.look(frame)
     return rest.began_s if is_at_rest else None
 
 def planned_length(scene: Scene, frame: int) -> float:
     """How long this frame should last, in s. With jitter, frames are irregular in a fixed way."""
-    # The multiples of 0.618 (the golden ratio - 1) without their whole parts are spread evenly
-    # over the numbers from 0 to 1.
+    # Numbers that look random, but are the same each time: the multiples of 0.618 (the golden ratio
+    # - 1) without their whole parts. They are spread evenly from 0 to 1.
     from_0_to_1 = (0.618 * frame) % 1
     from_minus_1_to_1 = 2 * from_0_to_1 - 1
     return (1 + scene.jitter * from_minus_1_to_1) / scene.fps_target
@@ -482,20 +481,20 @@ class Pace:
     def __init__(self, scene: Scene, keys: Keys | None) -> None:
         self.scene = scene
         self.keys = keys
-        # Begin as if the time of frame 1 had just passed. So frame 1 is due now.
+        # Pretend that frame 1 began one frame ago. So frame 1 is due now.
         self.shown_s = time.perf_counter() - planned_length(scene, 1)
         self.due_s = self.shown_s
 
-    def wait(self, frame: int, text: str) -> float | None:
-        """Wait until this frame is due. Returns how long it has lasted, in s.
+    def wait(self, frame: int, t_s: float) -> float | None:
+        """Wait until this frame is due. Returns how long it has lasted by the clock, in s.
 
-        Returns None where the clock does not tell that: after a pause, in which text was shown, and
-        without keys (--fast), where it does not wait.
+        Returns None if the clock does not tell it: after a pause, which shows how far the film is,
+        and without keys (--fast), where it does not wait.
         """
         if self.keys is None:
             return None
         self.due_s += planned_length(self.scene, frame)
-        was_timed = self.keys.wait_for_frame(self.due_s, text)
+        was_timed = self.keys.wait_for_frame(self.due_s, frame, t_s)
         now_s = time.perf_counter()
         lasted_s = now_s - self.shown_s
         self.shown_s = now_s
@@ -520,7 +519,7 @@ def dt_and_rate(scene: Scene, frame: int, lasted_s: float | None) -> tuple[float
 
 def run(cars: dict[str, Car], scene: Scene, view: View, max_frames: int,
         keys: Keys | None) -> None:
-    """Show the film until a key, the car at rest or max_frames ends it, and say which it was.
+    """Show the film until a key, the car at rest or max_frames ends it, and say which of them.
 
     cars has the cars by their marks, from back to front. Without keys (--fast) nothing waits.
     """
@@ -531,8 +530,7 @@ def run(cars: dict[str, Car], scene: Scene, view: View, max_frames: int,
     why = "that is the frame limit"
     for frame in range(1, max_frames + 1):
         # Wait until the frame is due. A key may end the film meanwhile.
-        lasted_s = pace.wait(
-            frame, f"paused after frame {frame - 1}, t = {t_s:.2f} s: p resumes, s steps, x quits")
+        lasted_s = pace.wait(frame, t_s)
         if keys is not None and keys.why_quit:
             why = keys.why_quit
             break
@@ -540,11 +538,11 @@ def run(cars: dict[str, Car], scene: Scene, view: View, max_frames: int,
         dt_s, fps = dt_and_rate(scene, frame, lasted_s)
         for each in cars.values():
             each.move(dt_s)
+        t_s += dt_s
         # Draw the frame.
         print(view.line(cars, fps))
         # Is it over?
-        t_s = car.frames[-1].t_s
-        is_at_rest = rest.look(t_s, car.frames[-1].x_m, car.frames[-1].v_mps)
+        is_at_rest = rest.look(car.frames[-1])
         if scene.auto_off and is_at_rest:
             why = "the car is at rest"
             break
@@ -553,9 +551,9 @@ def run(cars: dict[str, Car], scene: Scene, view: View, max_frames: int,
 # ==== 6. The truth ==============================================================================
 # What would the car really do? And which method should I take?
 #
-# The correction replay knows the truth, for a frame of any length: one step() of 20 s with
-# motion=exact and correction=replay is where the car truly is after 20 s. The film's o, the chart
-# and the map rely on this. So the tests compare it with a reference that has 60 digits.
+# The correction replay is right for a frame of any length: with motion=exact, one step() of 20 s
+# returns where the car truly is after 20 s. The film's o, the chart and the map rely on this. So
+# the tests compare it with a reference that has 60 digits.
 #
 # Think of a ball in a room. The wall to which the car is accelerated is the floor, and the other
 # wall is the ceiling. h is the height of the ball above the floor. The ball flies from bounce to
@@ -565,8 +563,8 @@ def run(cars: dict[str, Car], scene: Scene, view: View, max_frames: int,
 # meet the ceiling. So infinitely many hops take a finite time: if the first hop lasts 1 s, all of
 # them last 1 + CR + CR^2 + ... seconds, and this sum is 1/(1 - CR). The moment at which they end is
 # called the Zeno point. From then on the ball lies still. Nobody can follow infinitely many hops
-# one by one. So a ball that would rise less than GRAZE of the room lies still here. After a drop
-# from 2 m on the lesson's track this is at bounce 55 if CR is 0.8, and at bounce 605 if CR is 0.98.
+# one by one. So a ball that would rise less than GRAZE of the room lies still here. In example 12
+# it does so after bounce 55. With CR = 0.98 it would be after bounce 602.
 
 GRAZE = 2.5e-11  # on the lesson's track 5e-11 m: far more than round-off, less than an atom's width
 
@@ -576,9 +574,9 @@ def next_bounce(h_m: float, rise_mps: float, g_mps2: float,
 
     h_m is the height of the ball, and rise_mps is its velocity, upwards.
     """
-    # To rise to the ceiling takes the energy g * (room - h). A ball may touch the ceiling at almost
-    # no speed, and then round-off would decide whether it does. So a ball that would turn back less
-    # than GRAZE of the room beyond the ceiling does not meet it.
+    # To rise to the ceiling takes the energy g * (room - h). If a ball comes there at almost no
+    # speed, round-off would decide whether it meets the ceiling. So it must be able to rise higher,
+    # by GRAZE of the room.
     energy_to_meet_it = g_mps2 * (room_m - h_m + GRAZE * room_m)
     if rise_mps > 0 and rise_mps * rise_mps / 2 >= energy_to_meet_it:
         flight_s, speed_mps = arrival(room_m - h_m, rise_mps, -g_mps2)
@@ -608,8 +606,8 @@ def follow(h_m: float, rise_mps: float, g_mps2: float, room_m: float, CR: float,
         if rise_mps * rise_mps / 2 <= g_mps2 * GRAZE * room_m:
             return 0.0, 0.0, True  # it lies still, as it cannot rise by GRAZE of the room
         if CR == 1 and has_met_floor:
-            # The ball needed since_floor_s from floor to floor. At CR = 1 it will need as long
-            # again and again. Leave out all whole periods: a division leaves the remainder.
+            # The ball needed since_floor_s from floor to floor. At CR = 1 it needs as long each
+            # time. So leave out all whole periods. What remains is the remainder of a division.
             remaining_s = remaining_s % since_floor_s
         has_met_floor = True
         since_floor_s = 0.0
@@ -646,18 +644,17 @@ def truth_of(track: Track) -> Track:
 # example 21 and the chart compare five.
 #
 #     method                 energy       error of the place          take it for
-#     a  backward + rebound  up and down  order 1                     scenery
+#     a  backward + rebound  up and down  order 1                     what may be wrong
 #     b  exact + rebound     too much     order 1                     cars without an acceleration
 #     c  exact + conserve    right        order 1: bounces come late  balls in a game
-#     d  exact + rewind      right        none, or order 2 at CR < 1  short frames
+#     d  exact + rewind      right        none                        short frames
 #     e  exact + replay      right        none                        the truth
 #
-# The table is for a car that bounces on its floor. Order 1 means that frames of half the length
-# make half the error, and order 2 that they make a quarter. What is said of d holds while each
-# frame has at most one bounce, and the move of a frame with a bounce ends beyond the wall. But at
-# CR < 1 the last frames before the Zeno point have several bounces. There d gets a little too much
-# energy, and this makes the error of order 2. Without an acceleration, and in short frames, a, b, d
-# and e have no error, and c has one of order 1.
+# The table is for a car that bounces on its floor, at most once in a frame. Order 1 means that
+# frames of half the length make half the error.
+#     At CR < 1, frames shortly before the Zeno point hold several bounces. There d gets a little
+#     too much energy. This makes an error of order 2: half the length makes a quarter of it.
+#     Without an acceleration a, b, d and e have no error, and c has one of order 1.
 #
 # Methods a to d need short frames, because they look only at the end of a frame, and settle one
 # bounce there. They miss a bounce if the car is back on the track when the frame ends (example 18).
@@ -684,14 +681,14 @@ def method_text(track: Track) -> str:
     """The method in words, as in backward + rebound."""
     return f"{track.motion} + {track.correction}"
 
-LEGEND = {letter: f"{letter}: {method_text(track)}"
-          for letter, track in by_five_methods(Track()).items()}
+LEGEND = {letter: f"{letter}: {method['motion']} + {method['correction']}"
+          for letter, method in METHODS.items()}
 
 # ==== 7. The chart: speed against accuracy ======================================================
 # What does each method cost, and how wrong is it?
 
-SPAN_S = 20  # of simulated time: about eight bounces in example 10, enough for errors to grow
-CUTS = 10  # runs of each method: with fewer, the largest error would depend on luck
+SPAN_S = 20  # of simulated time: seven bounces in example 10, so errors have time to grow
+RUNS = 10  # of each method: with fewer, the largest error would depend more on luck
 
 PYTHON = os.path.basename(sys.executable).removesuffix(".exe")  # what runs this: python3, say
 
@@ -706,62 +703,40 @@ def track_text(track: Track) -> str:
             f"CR={track.CR:.10g}, walls at {track.left_edge_m:.10g} and "
             f"{track.right_edge_m:.10g} m")
 
-class Record(NamedTuple):
-    """What a car did and, beside it, what its true car did in the same frames."""
-
-    track: Track  # of the car
-    times_s: list[float]
-    states: list[State]
-    true_states: list[State]
-
-    def furthest_m(self) -> float:
-        """How far the car was at most from its true car."""
-        furthest_m = 0.0
-        for (x_m, _), (true_m, _) in zip(self.states, self.true_states, strict=True):
-            furthest_m = max(furthest_m, abs(x_m - true_m))
-        return furthest_m
-
-    def first(self, frames: int) -> "Record":
-        """Only so many of its frames."""
-        return Record(self.track, self.times_s[:frames], self.states[:frames],
-                      self.true_states[:frames])
-
-def simulate(track: Track, x_m: float, v_mps: float, lengths_s: list[float]) -> list[State]:
-    """The place and the velocity at the start, and after each frame of these lengths."""
-    states = [(x_m, v_mps)]
+def simulate(track: Track, start: Frame, lengths_s: list[float]) -> list[Frame]:
+    """The start, and a frame of each of these lengths."""
+    frame = start
+    frames = [frame]
     for dt_s in lengths_s:
-        x_m, v_mps, _ = step(track, x_m, v_mps, dt_s)
-        states.append((x_m, v_mps))
-    return states
+        frame = next_frame(track, frame, dt_s)
+        frames.append(frame)
+    return frames
 
-def equal_frames(fps: int) -> list[float]:
-    """The lengths of all frames in SPAN_S."""
-    return [1 / fps] * (SPAN_S * fps)
+def lengths_of(frames: list[Frame]) -> list[float]:
+    """How long each of the frames after the start lasted."""
+    return [frame.dt_s for frame in frames[1:]]
 
-def ten_true_runs(track: Track, fps: int) -> list[list[State]]:
-    """The true car in ten cuts of its motion into frames. All methods are compared with them.
+def furthest_m(frames: list[Frame], true_frames: list[Frame]) -> float:
+    """How far a car was at most from its true car."""
+    return max([abs(frame.x_m - true.x_m)
+                for frame, true in zip(frames, true_frames, strict=True)])
 
-    It is luck at which moment of a frame the car meets a wall. Cut 0 begins at the start. Each
-    other cut begins a part of a frame later, at the true state of that moment.
+def ten_true_runs(track: Track, fps: int) -> list[list[Frame]]:
+    """The frames of the true car in ten runs of SPAN_S. All methods are compared with them.
+
+    It is luck at which moment of a frame the car meets a wall. So the ten runs begin at ten moments
+    of the same motion. Run 0 begins at the start. Each other run begins a part of a frame later,
+    where the true car is then.
     """
     truth = truth_of(track)
     runs = []
-    for cut in range(CUTS):
-        # The parts are elevenths. At a half or a fifth round settings would be a special case.
-        later_s = cut / (CUTS + 1) / fps
+    for run_number in range(RUNS):
+        # The parts are elevenths. With tenths, a frame might begin at a bounce in round numbers.
+        later_s = run_number / (RUNS + 1) / fps
         x_m, v_mps, _ = step(truth, truth.x_m, truth.v_mps, later_s)
-        runs.append(simulate(truth, x_m, v_mps, equal_frames(fps)))
+        start = Frame(0.0, 0.0, x_m, v_mps, None)
+        runs.append(simulate(truth, start, [1 / fps] * (SPAN_S * fps)))
     return runs
-
-def ten_records(track: Track, fps: int, true_runs: list[list[State]]) -> list[Record]:
-    """The car in ten runs, each from the start of a true run, and in the same frames."""
-    times_s = [frame / fps for frame in range(SPAN_S * fps + 1)]
-    records = []
-    for true_states in true_runs:
-        x_m, v_mps = true_states[0]
-        states = simulate(track, x_m, v_mps, equal_frames(fps))
-        records.append(Record(track, times_s, states, true_states))
-    return records
 
 def costs_us(tracks: dict[str, Track], fps: int) -> dict[str, float]:
     """How long the steps of a simulated second take with each method, in microseconds.
@@ -794,11 +769,12 @@ def measured(track: Track, fps: int) -> list[Point]:
     costs = costs_us(tracks, fps)
     true_runs = ten_true_runs(track, fps)
     points = []
-    for letter, method in tracks.items():
+    for letter, method_track in tracks.items():
         error_m = 0.0
         if letter != THE_TRUTH:
-            records = ten_records(method, fps, true_runs)
-            error_m = max([record.furthest_m() for record in records])
+            for true_frames in true_runs:
+                frames = simulate(method_track, true_frames[0], lengths_of(true_frames))
+                error_m = max(error_m, furthest_m(frames, true_frames))
         points.append(Point(letter, fps, error_m, costs[letter]))
     return points
 
@@ -833,7 +809,7 @@ def row_text(points: list[Point]) -> str:
         error = f"{point.error_m:.1e}"
         if point.letter == THE_TRUTH:
             error = "-"
-        row += f"{error:>9}{point.cost_us:6.0f}"
+        row += f"{error:>8}{point.cost_us:7.1f}"
     return row
 
 DECADES = ["<=1 um", "10 um", "0.1 mm", "1 mm", "1 cm", "0.1 m", "1 m", ">=10 m"]
@@ -859,33 +835,33 @@ def print_picture(points: list[Point], column_m: float) -> None:
     rows = [row for row, _ in letters]
     limit = error_column(column_m)
     print("a column of the film |".rjust(10 + limit + 1))
-    print("    us    " + "".join([text.ljust(COLUMNS_A_DECADE) for text in DECADES]).rstrip())
+    print("     us   " + "".join([text.ljust(COLUMNS_A_DECADE) for text in DECADES]).rstrip())
     for row in range(min(rows), max(rows) + 1):
-        line = f"{10 ** (row / ROWS_A_DECADE):6.0f}    "
+        line = f"{10 ** (row / ROWS_A_DECADE):7.1f}   "
         for column in range(LAST_COLUMN + 1):
             behind = "|" if column == limit else " "
             line += letters.get((row, column), behind)
         print(line.rstrip())
 
 def print_answers(points: list[Point], column_m: float) -> None:
-    """Which method is the cheapest that is good enough, and which is it at the rate of a game?"""
+    """Print from which rate on a method is good enough, and what it is like at a game's rate."""
     rows = []
-    for letter in METHODS:
-        series = of_method(letter, points)
+    for in_game in [point for point in points if point.fps == GAME_FPS]:
+        letter = in_game.letter
         # From the highest rate down, as long as the error is small enough.
-        good = list(takewhile(lambda point: point.error_m <= column_m, reversed(series)))
+        from_above = reversed(of_method(letter, points))
+        good = list(takewhile(lambda point: point.error_m <= column_m, from_above))
         cheapest_us = math.inf
         within = "at no rate"
         if good:
             cheapest_us = good[-1].cost_us
-            within = f"from {good[-1].fps:4} FPS on: {cheapest_us:5.0f} us"
-        in_game, = [point for point in series if point.fps == GAME_FPS]
+            within = f"from {good[-1].fps:4} FPS on: {cheapest_us:6.1f} us"
         off = f"up to {in_game.error_m:.2g} m off"
         if letter == THE_TRUTH:
             off = "right by definition"
-        text = f"{LEGEND[letter]:22} {within:26} {in_game.cost_us:5.0f} us, {off}"
+        text = f"{LEGEND[letter]:22} {within:27} {in_game.cost_us:5.1f} us, {off}"
         rows.append((cheapest_us, text))
-    print(f"{'':22} {'within a column':26} at {GAME_FPS} FPS, as in a game")
+    print(f"{'':22} {'within a column':27} at {GAME_FPS} FPS, as in a game")
     for _, text in sorted(rows):  # by the cost, which stands first
         print(text)
 
@@ -894,15 +870,15 @@ def chart(scene: Scene, words: str) -> None:
     column_m = scene.column_m()
     say(f"Speed against accuracy. Scene {words}: {track_text(scene.track)}")
     say("Which method is the cheapest that stays within a column of the film? Each runs ten times "
-        "for 20 simulated seconds. Error: the largest distance from the true car. Cost: the time "
-        "that a simulated second takes, in us (microseconds). Order: 1 if half the dt makes half "
-        "the error, 2 if it makes a quarter. It is taken from the errors below a tenth of the "
-        "track: none if these are all round-off, ? if fewer than three are more than that. Method "
-        "e has no error, because the true car is moved by it.")
+        "for 20 simulated seconds, from ten moments of the motion. Error: the largest distance "
+        "from the true car. Method e has none, because the true car is moved by it. Cost: the time "
+        "that a simulated second takes, in us (microseconds). Order, from the errors below a tenth "
+        "of the track: 1 if half the dt makes half the error, 2 if it makes a quarter, none if "
+        "there is only round-off, and ? if there are too few.")
     say(", ".join(LEGEND.values()))
     print()
-    print(" " * 4 + "".join([letter.rjust(12) + "   " for letter in METHODS]).rstrip())
-    print(" FPS" + "  error m    us" * len(METHODS))
+    print(" " * 4 + "".join([letter.rjust(11) + " " * 4 for letter in METHODS]).rstrip())
+    print(" FPS" + " error m     us" * len(METHODS))
     points = []
     for fps in CHART_FPS:
         row = measured(scene.track, fps)
@@ -913,15 +889,16 @@ def chart(scene: Scene, words: str) -> None:
         order = order_text(of_method(letter, points), scene.track.length_m())
         if letter == THE_TRUTH:
             order = "-"
-        orders += f"{order:>8}       "
+        orders += f"{order:>7}" + " " * 8
     print(orders.rstrip())
     print()
     print_picture(points, column_m)
-    say("The best are in the upper left. Where letters meet there is a +. Now the answer. Within a "
-        f"column ({column_m:.2g} m) means: in all ten runs, at this rate and at each higher one.")
+    say("Error to the right, cost downwards: the best are in the upper left. + is where letters "
+        f"meet. The answer: within a column ({column_m:.2g} m) in all ten runs, at this rate and "
+        "at each higher one of the table:")
     print_answers(points, column_m)
-    say("In a game one may still take c: it need not know the walls ahead, as e must, it comes to "
-        "rest at CR < 1, and it is never thrown out.")
+    say("In a game c may still be the choice. It need not know all walls ahead, as e must. On a "
+        "floor it comes to rest if CR is below 1. And it is never thrown out.")
     print(f"Next: {PYTHON} airtrack.py stability {words}")
 
 # ==== 8. The map: where methods fail ============================================================
@@ -932,39 +909,35 @@ LATE_S = 15  # here begin the last 5 s of a run: the last quarter of it
 VERDICTS = {  # a letter, its name, and what it means
     "X": ("gets out", "further beyond a wall than the track is long"),
     "S": ("is stuck", "beyond the same wall all through the last 5 s"),
-    "H": ("hops on", "over a column off, moving at the end, where the true car lies still"),
-    "G": ("has too much energy", "in the last 5 s on average, by over 1 % of the first"),
-    "L": ("has too little energy", "in the last 5 s on average, by over 1 % of the first"),
+    "H": ("hops on", "over a column off, at the end not at rest, but the true car is"),
+    "G": ("has too much energy", "over the last 5 s by more than 1 % of the start energy"),
+    "L": ("has too little energy", "over the last 5 s by more than 1 % of the start energy"),
     "P": ("was off, with the right energy", "over a column off at some time"),
     "-": ("is right", "never over a column of the film off"),
 }
 FROM_WORST_TO_BEST = "XSHWGLP-"  # W is for several runs: see worst_of()
 
-def verdict(record: Record, column_m: float) -> str:
-    """The letter of one run of 20 s: X, S, H, G, L, P or -."""
-    track, times_s, states, true_states = record
-    late = bisect_left(times_s, LATE_S - ROUND_OFF_S)  # the first frame of the last 5 s
+def verdict(track: Track, frames: list[Frame], true_frames: list[Frame], column_m: float) -> str:
+    """The letter of a car that ran for 20 s beside its true car: X, S, H, G, L, P or -."""
     left_m, right_m, track_m = track.left_edge_m, track.right_edge_m, track.length_m()
-    places_m = [x_m for x_m, _ in states]
+    places_m = [frame.x_m for frame in frames]
     if max(places_m) > right_m + track_m or min(places_m) < left_m - track_m:
         return "X"
-    # S: less than ten frames would not show that the car stays there.
-    late_m = places_m[late:]
+    late = [frame for frame in frames if frame.t_s >= LATE_S - ROUND_OFF_S]
+    late_m = [frame.x_m for frame in late]
     is_beyond = min(late_m) > right_m or max(late_m) < left_m
-    if is_beyond and len(late_m) >= 10:
+    if is_beyond and len(late) >= 10:  # fewer frames would not show that it stays there
         return "S"
-    if record.furthest_m() <= column_m:
+    if furthest_m(frames, true_frames) <= column_m:
         return "-"
-    # H: a true car that lies still has no energy. (Its energy is exactly 0, because replay puts it
-    # on its floor.)
-    true_energies = [track.energy(x_m, v_mps) for x_m, v_mps in true_states[late:]]
-    is_at_rest = rest_began_s(track, times_s, states, column_m) is not None
-    if max(true_energies) == 0 and not is_at_rest:
+    # H: a true car that lies still has no energy: replay puts it on its floor, so it is exactly 0.
+    true_energies = [track.energy(true.x_m, true.v_mps) for true in true_frames[-len(late):]]
+    if max(true_energies) == 0 and rest_began_s(track, frames, column_m) is None:
         return "H"
     # G and L: on average over the last 5 s. 100 % is the energy at the start.
-    energies = [track.energy(x_m, v_mps) for x_m, v_mps in states[late:]]
+    energies = [track.energy(frame.x_m, frame.v_mps) for frame in late]
     gain = fmean(energies) - fmean(true_energies)
-    one_percent = 0.01 * track.energy(*true_states[0])
+    one_percent = 0.01 * track.energy(true_frames[0].x_m, true_frames[0].v_mps)
     if gain > one_percent:
         return "G"
     if gain < -one_percent:
@@ -985,9 +958,10 @@ def stability(scene: Scene, words: str) -> None:
     column_m = scene.column_m()
     say(f"Stability. Scene {words}: {track_text(scene.track)}")
     say("Which methods are right, and from which frame rate on? Each runs ten times for 20 "
-        "simulated seconds. G and L are for cars that were over a column off. W: some of the ten "
-        "runs have a G, others an L. A small letter: only some of the ten are so bad. Example 20 "
-        "says why hops get too much energy (H, G), and example 19 why they get too little (L).")
+        "simulated seconds, from ten moments of the motion. The letter is that of the worst run, "
+        "and small if other runs are better. The key begins with the worst. (W comes after H: some "
+        "runs have a G, others an L.) Only cars that were over a column off can have H, G, L or P. "
+        "Example 20 says why hops get too much energy, and example 19 why they get too little.")
     print()
     print(" " * 20 + "".join([str(fps).rjust(6) for fps in MAP_FPS]) + " FPS")
     true_runs = {fps: ten_true_runs(scene.track, fps) for fps in MAP_FPS}
@@ -998,24 +972,26 @@ def stability(scene: Scene, words: str) -> None:
             track = replace(scene.track, motion=motion, correction=correction)
             row = method_text(track).ljust(20)
             for fps in MAP_FPS:
-                records = ten_records(track, fps, true_runs[fps])
-                letters = [verdict(record, column_m) for record in records]
+                letters = []
+                for true_frames in true_runs[fps]:
+                    frames = simulate(track, true_frames[0], lengths_of(true_frames))
+                    letters.append(verdict(track, frames, true_frames, column_m))
                 row += worst_of(letters).rjust(6)
             print(row, flush=True)
     for letter, (name, meaning) in VERDICTS.items():
         print(f"{letter}  {name}: {meaning}")
     print(f"Next: {PYTHON} airtrack.py 20")
 
-# Why do some cars hop for ever, and why do others lie still too soon? In hops on the floor, in
-# frames of one length, surface and rebound follow one law. A hop begins at a speed u, upwards. It
-# ends where a collision is found: below the floor, at a speed w, downwards. In truth w is u. Here
-#         w = u + k * g * dt,        and the next hop begins at u = CR * w.
-# In hops of two frames or more, k is more than 0 and at most 1 with exact + surface. So each hop
-# gets speed from nothing. At CR = 1 the hops get higher and higher (G). At a smaller CR the bounce
-# takes the part 1 - CR of w. If w is small, k * g * dt may be as much as that, and the hops go on
-# for ever (H). With backward + surface, k is more than -1 and at most 0. So each hop loses speed or
-# keeps it, and the car may come to rest even at CR = 1 (L). The page .github/law.md has the other
-# methods, the proof, and a way to foretell a film with pen and paper.
+# Why do some cars hop for ever, and why do others lie still too soon? Think of hops on the floor,
+# in frames of one length, with surface or rebound. A hop begins upwards at a speed u. It ends where
+# a collision is found: below the floor, downwards, at a speed w. The next hop begins at CR * w.
+#     A true car would come back at the speed u. Here it comes back at  w = u + k * g * dt.
+#     With exact + surface, in hops of two frames or more, k is above 0 and at most 1. So each hop
+#     gets speed from nothing. At CR = 1 the hops get higher and higher (G). Below CR = 1 a bounce
+#     takes (1 - CR) * w. A slow car may get as much back in each hop: then it hops for ever (H).
+#     With backward + surface, in such hops, k is above -1 and at most 0. So hops lose speed, and
+#     the car may come to rest even at CR = 1 (L).
+# The page .github/law.md proves this, has the other methods, and foretells a film on paper.
 
 # ==== 9. Before and after a film ================================================================
 # What is said before a film, and what after it?
@@ -1026,14 +1002,14 @@ class Film(NamedTuple):
     number: int  # of the example
     typed: list[str]  # the settings that were typed, as NAME=VALUE
     scene: Scene
-    unchanged: Track | None  # the track of the example as it is, if a + is drawn for it
-    texts: Example  # the one whose texts fit
+    unchanged: Scene  # the example as it is
+    texts: Example  # with what is said: it is CHANGED or CHANGED_FRAMES if the example is changed
     has_details: bool
     is_fast: bool
     max_frames: int
 
 def cars_of(scene: Scene, unchanged: Track | None) -> dict[str, Car]:
-    """All cars that a film draws, by their marks, from back to front."""
+    """All cars that a film draws, by their marks, from back to front. unchanged is for a +."""
     cars = {}
     if scene.show_methods:
         for letter, track in by_five_methods(scene.track).items():
@@ -1063,20 +1039,18 @@ def has_colours() -> bool:
     terminal = os.environ.get("TERM", "dumb")
     return sys.stdout.isatty() and terminal != "dumb" and not os.environ.get("NO_COLOR")
 
+LEAST_WIDTH_PX = 10
+
 def fitted(scene: Scene, has_details: bool) -> Scene:
-    """The scene, drawn smaller if its lines are wider than the terminal. Says so then."""
+    """The scene, drawn smaller if its lines are wider than the terminal."""
     columns = shutil.get_terminal_size().columns
     if has_details:
         true_m = 0.0 if scene.show_exact_mark else None
-        # Places and speeds in a scene hardly ever need more letters than -1000.00.
+        # Places and speeds in a scene hardly ever need more characters than -1000.00.
         columns -= len(details_text(-1000, -1000, scene.fps_target, true_m))
+    columns = max(columns, LEAST_WIDTH_PX)
     if columns >= scene.width_px or not sys.stdout.isatty():
         return scene
-    if columns < 10:  # the least that a scene may have
-        say("The terminal is too narrow: its lines are broken. Leave out d, or make it wider.")
-        columns = 10
-    else:
-        say(f"The picture is drawn {columns} columns wide, to fit into the terminal.")
     # What was in the last column must stay in the last column. The first column has number 0.
     m_to_px = scene.m_to_px * (columns - 1) / (scene.width_px - 1)
     return replace(scene, width_px=columns, m_to_px=m_to_px)
@@ -1085,9 +1059,9 @@ def one_digit(number: float) -> float:
     """The number with one significant digit, as it is printed: then what is under it is so."""
     return float(f"{number:.1g}")
 
-def energies_text(track: Track, states: list[State]) -> str:
+def energies_text(car: Car) -> str:
     """The first, the least, the most and the last energy, with up to four significant digits."""
-    energies = [track.energy(x_m, v_mps) for x_m, v_mps in states]
+    energies = [car.track.energy(frame.x_m, frame.v_mps) for frame in car.frames]
     little = one_digit(energies[0] / 5000)
     text = ""
     for energy in (energies[0], min(energies), max(energies), energies[-1]):
@@ -1114,86 +1088,98 @@ def hops_text(car: Car) -> str:
 
 def end_text(car: Car, column_m: float) -> str:
     """What the car does at the end of the film."""
-    began_s = rest_began_s(car.track, car.times_s(), car.states(), column_m)
+    began_s = rest_began_s(car.track, car.frames, column_m)
     if began_s is not None:
         return f"at rest from {began_s:.2f} s on"
     if any(car.track.has_on_it(frame.x_m) for frame in car.frames[-10:]):
         return "still moves"
     return "is beyond a wall"  # in all of its last ten frames, not only after a bounce
 
-def continued(car: Car, scene: Scene) -> Car:
-    """The car after the film, moved on in planned frames until SPAN_S have passed."""
-    longer = Car(car.track)
-    longer.frames = list(car.frames)
-    while longer.frames[-1].t_s < SPAN_S - ROUND_OFF_S:
-        longer.move(planned_dt(scene, len(longer.frames)))
-    return longer
+def with_true_frames(car: Car, scene: Scene) -> tuple[list[Frame], list[Frame]]:
+    """The frames of a car and those of its true car, for SPAN_S or, if it is longer, for the film.
 
-def records_of(cars: dict[str, Car], scene: Scene) -> dict[str, Record]:
-    """The cars that are not the truth themselves, each beside its true car, by their marks."""
-    true_states: dict[Track, list[State]] = {}  # by the true car's track: most cars have the same
-    records = {}
-    for mark, car in cars.items():
-        truth = truth_of(car.track)
-        if car.track == truth:
-            continue
-        longer = continued(car, scene)
-        if truth not in true_states:
-            lengths_s = [frame.dt_s for frame in longer.frames[1:]]
-            true_states[truth] = simulate(truth, truth.x_m, truth.v_mps, lengths_s)
-        records[mark] = Record(car.track, longer.times_s(), longer.states(), true_states[truth])
-    return records
+    To a shorter film it adds planned frames.
+    """
+    frames = list(car.frames)
+    while frames[-1].t_s < SPAN_S - ROUND_OFF_S:
+        frames.append(next_frame(car.track, frames[-1], planned_dt(scene, len(frames))))
+    truth = Car(truth_of(car.track))
+    return frames, simulate(truth.track, truth.frames[0], lengths_of(frames))
+
+def film_verdict(track: Track, frames: list[Frame], true_frames: list[Frame],
+                 column_m: float) -> str:
+    """The verdict on the first SPAN_S."""
+    before = list(takewhile(lambda frame: frame.t_s < SPAN_S - ROUND_OFF_S, frames))
+    count = len(before) + 1  # with the frame in which the time is over
+    return verdict(track, frames[:count], true_frames[:count], column_m)
+
+def off_text(frames: list[Frame], true_frames: list[Frame], track_m: float) -> str:
+    """How far the car was at most from its true car."""
+    off_m = furthest_m(frames, true_frames)
+    little_m = one_digit(track_m / 2000)  # about 1 mm on the lesson's track
+    if off_m < little_m:
+        return f"under {little_m:g} m"
+    return f"{off_m:.4g} m"
 
 def tell_cars(cars: dict[str, Car], scene: Scene) -> None:
     """Print a table of the cars, what became of them, and the verdict on the *."""
     column_m = scene.column_m()
-    records = records_of(cars, scene)
     rows = []
     ends = []
-    sentence = "The * is the true car, so it is right by definition."
+    sentence = "The * is moved as the true car is, so it is right by definition."
     for mark, car in reversed(cars.items()):
+        track = car.track
         off = "the truth"
         end = f"{mark} {end_text(car, column_m)}; {hops_text(car)}"
-        if mark in records:
-            record = records[mark]
-            furthest_m = record.first(len(car.frames)).furthest_m()
-            little_m = one_digit(car.track.length_m() / 2000)
-            off = f"under {little_m:g} m" if furthest_m < little_m else f"{furthest_m:.4g} m"
-            frames_of_20_s = bisect_right(record.times_s, SPAN_S + ROUND_OFF_S)
-            name, meaning = VERDICTS[verdict(record.first(frames_of_20_s), column_m)]
+        if track != truth_of(track):
+            frames, true_frames = with_true_frames(car, scene)
+            shown = len(car.frames)
+            off = off_text(frames[:shown], true_frames[:shown], track.length_m())
+            name, meaning = VERDICTS[film_verdict(track, frames, true_frames, column_m)]
             end += f"; {name}"
             if mark == "*":
-                sentence = f"In its first {SPAN_S} s, shown or not, the * {name}: {meaning}."
-        energies = energies_text(car.track, car.states())
-        rows.append(f"{mark} {method_text(car.track):20}{off:>15}{energies}")
+                when = "Computed on to" if shown < len(frames) else "In the first"
+                sentence = f"{when} {SPAN_S} s, the * {name}: {meaning}."
+        rows.append(f"{mark} {method_text(track):20}{off:>15}{energies_text(car)}")
         ends.append(end)
     print()
     print("                        furthest from    energy in J/kg (0: lies at its floor)")
     print("                       its own truth     first     least      most      last")
     for row in rows:
         print(row)
-    print(f"At the end; hops in frames, from bounce to bounce; verdict on the first {SPAN_S} s:")
+    print("At the end of the film; the length of each hop in frames; the verdict:")
     for end in ends:
         print(end)
-    say(f"{sentence} A column is {column_m:.2g} m wide.")
+    say(f"{sentence} A column is 1/m_to_px = {column_m:.2g} m.")
+
+def tell_unchanged(scene: Scene) -> None:
+    """Say the verdict on the example as it is, in its own frames."""
+    frames, true_frames = with_true_frames(Car(scene.track), scene)
+    name, _ = VERDICTS[film_verdict(scene.track, frames, true_frames, scene.column_m())]
+    say(f"Without your change the * {name}.")
 
 def film(wanted: Film) -> None:
     """Say what to look for, leave time to guess, show the film, and say what was to be seen."""
-    scene = wanted.scene
-    title = OWN_SCENE.title
+    scene, texts = wanted.scene, wanted.texts
+    title = texts.title
     if wanted.number in EXAMPLES:
-        title = f"Example {wanted.number}: {EXAMPLES[wanted.number].title}"
+        title = f"Example {wanted.number}: {texts.title}"
     say(", ".join([title, *wanted.typed]))
     say(scene_text(scene))
     drawn = fitted(scene, wanted.has_details)
+    if drawn.width_px == LEAST_WIDTH_PX:
+        say("The terminal is too narrow: lines may be broken.")
+    elif drawn.width_px < scene.width_px:
+        say(f"The picture is drawn {drawn.width_px} columns wide, to fit into the terminal.")
     view = View(drawn, wanted.has_details, has_colours() and not wanted.is_fast)
-    cars = cars_of(scene, wanted.unchanged)
+    plus = wanted.unchanged.track if texts is CHANGED else None
+    cars = cars_of(scene, plus)
     taking = nullcontext() if wanted.is_fast else taken_keys()
     with taking as keys:
         if keys is None:
-            say(wanted.texts.look_for)
+            say(texts.look_for)
         else:
-            for text in keys.texts_before(wanted.texts.look_for):
+            for text in keys.texts_before(texts.look_for):
                 say(text)
             keys.leave_time()
         print()
@@ -1201,6 +1187,8 @@ def film(wanted: Film) -> None:
     if len(cars["*"].frames) == 1:
         return  # it was ended before it began
     tell_cars(cars, scene)
+    if texts is CHANGED_FRAMES:
+        tell_unchanged(wanted.unchanged)
     if not wanted.is_fast:
         say_after(wanted)
 
@@ -1242,17 +1230,15 @@ OTHER_NAMES = {
     "zoom": "m_to_px", "euler": "motion=forward", "rk4": "motion=exact", "map": "stability",
     "details": "d", "help": "-h", "fast": "--fast", "frames": "--frames"}
 
-def is_number(name: str) -> bool:
-    """Whether a setting is a number, and not one of several words."""
-    return type(SETTINGS[name].default) in (int, float)
-
 def allowed_text(name: str) -> str:
     """What a setting may be, in words."""
-    *others, last = [str(value) for value in SETTINGS[name].metadata["allowed"]]
-    if not is_number(name):
+    about = SETTINGS[name].metadata
+    if "choices" in about:
+        *others, last = [str(each) for each in about["choices"]]
         return f"{', '.join(others)} or {last}"
+    least, largest = about["range"]
     kind = "a whole number" if name == "width_px" else "a number"
-    return f"{kind} from {others[0]} to {last}"
+    return f"{kind} from {least} to {largest}"
 
 def fault_text(name: str, text: str) -> str:
     """What is said of a value that a setting may not have."""
@@ -1260,10 +1246,10 @@ def fault_text(name: str, text: str) -> str:
 
 def value_of(name: str, text: str) -> Any:
     """The value of a setting, from what a user typed after NAME=. Raises Refused."""
-    if not is_number(name):
-        for choice in SETTINGS[name].metadata["allowed"]:
-            if text.lower() == str(choice).lower():
-                return choice
+    if "choices" in SETTINGS[name].metadata:
+        for each in SETTINGS[name].metadata["choices"]:
+            if text.lower() == str(each).lower():
+                return each
         raise Refused(fault_text(name, text))
     if "," in text:
         raise Refused(f"{fault_text(name, text)}: write a decimal point, not a comma")
@@ -1272,31 +1258,42 @@ def value_of(name: str, text: str) -> Any:
     except ValueError:
         raise Refused(fault_text(name, text)) from None
 
-def scene_of(settings: dict[str, Any]) -> Scene:
-    """The scene with these settings. Raises Refused for what is not allowed."""
-    for name, value in settings.items():
-        allowed = SETTINGS[name].metadata["allowed"]
-        if is_number(name) and not allowed[0] <= value <= allowed[1]:
-            raise Refused(fault_text(name, f"{value:.10g}"))
-        if not is_number(name) and value not in allowed:
+def check(name: str, value: Any) -> None:
+    """Raise Refused if the setting may not have this value."""
+    about = SETTINGS[name].metadata
+    if "choices" in about:
+        if value not in about["choices"]:
             raise Refused(fault_text(name, value))
-    track = Track(**{name: settings[name] for name in settings if name in OF_THE_TRACK})
-    scene = Scene(track, **{name: settings[name] for name in settings if name in OF_THE_FILM})
+    elif not about["range"][0] <= value <= about["range"][1]:
+        raise Refused(fault_text(name, f"{value:.10g}"))
+
+def check_pairs(track: Track) -> None:
+    """Raise Refused if two settings of the track exclude each other."""
     left_m, right_m = track.left_edge_m, track.right_edge_m
     if right_m - left_m < 0.01 - 1e-9:  # round-off: 2.21 - 2.2 is a little less than 0.01
         raise Refused(f"right_edge_m must be left_edge_m + 0.01 or more, so from "
-                         f"{left_m + 0.01:.10g} on, not {right_m}")
+                      f"{left_m + 0.01:.10g} on, not {right_m}")
+    if track.correction not in EXACT_ONLY:
+        return
     condition = f"with correction={track.correction}"
-    if track.correction in EXACT_ONLY and track.motion != "exact":
+    if track.motion != "exact":
         raise Refused(f"motion must be exact {condition}, not {track.motion}: choose "
-                         "motion=exact or another correction")
-    if track.correction in EXACT_ONLY and not track.has_on_it(track.x_m):
+                      "motion=exact or another correction")
+    if not track.has_on_it(track.x_m):
         raise Refused(f"x_m must be from {left_m} to {right_m} {condition}, not {track.x_m}: "
-                         "choose a start on the track or another correction")
+                      "choose a start on the track or another correction")
+
+def scene_of(settings: dict[str, Any]) -> Scene:
+    """The scene with these settings. Raises Refused, a ValueError, for what is not allowed."""
+    for name, value in settings.items():
+        check(name, value)
+    track = Track(**{name: settings[name] for name in settings if name in OF_THE_TRACK})
+    check_pairs(track)
+    scene = Scene(track, **{name: settings[name] for name in settings if name in OF_THE_FILM})
     if "m_to_px" in settings:
         return scene
     # Nobody chose a zoom: take one that shows the right wall.
-    shown_m = right_m - min(0.0, left_m)
+    shown_m = track.right_edge_m - min(0.0, track.left_edge_m)
     return replace(scene, m_to_px=min(scene.m_to_px, (scene.width_px - 1) / shown_m))
 
 def fault_of(word: str) -> str:
@@ -1380,19 +1377,20 @@ def sort_words(options: argparse.Namespace, words: list[str]) -> None:
 def film_of(options: argparse.Namespace) -> Film:
     """The film that was asked for. Raises Refused."""
     example = EXAMPLES.get(options.number, OWN_SCENE)
-    settings = example.settings | options.changes
     as_it_is = {name: each.default for name, each in SETTINGS.items()} | example.settings
     changed = [name for name, value in options.changes.items() if value != as_it_is[name]]
-    texts, unchanged = example, None
-    if example is not OWN_SCENE and any(name in OF_THE_FRAMES for name in changed):
-        texts = CHANGED_FRAMES  # no +: it would need frames of its own
-    elif example is not OWN_SCENE and any(name in OF_THE_TRACK for name in changed):
-        texts, unchanged = CHANGED, scene_of(example.settings).track
+    settings = example.settings | options.changes
+    texts = example
+    if example is not OWN_SCENE:
+        if any(name in OF_THE_FRAMES for name in changed):
+            texts = CHANGED_FRAMES
+        elif any(name in OF_THE_TRACK for name in changed):
+            texts = CHANGED
     if texts is not example:  # nobody knows what happens there, so the film shows its true car
         settings = {"show_exact_mark": True} | settings
     max_frames = FRAMES if options.frames is None else options.frames
-    return Film(options.number, options.typed, scene_of(settings), unchanged, texts,
-                options.details or example.has_details, options.fast, max_frames)
+    return Film(options.number, options.typed, scene_of(settings), scene_of(example.settings),
+                texts, options.details or example.has_details, options.fast, max_frames)
 
 def compared_scene(options: argparse.Namespace) -> Scene:
     """The scene of a chart or a map. Raises Refused for what these do not take."""

@@ -259,17 +259,17 @@ EXAMPLES = {
 
 # These stand for a changed example and for a scene of one's own. Nobody knows what is to be seen
 # there, so the film's own table answers.
-CHANGED = Example("A changed example", {},
+CHANGED = Example("changed", {},
     "An o is the true car of the changed scene. A + is the car of the example as it is. If you do "
     "not see them, they are under the *. (< and > mean: the * is out of the picture.) What does "
-    "your change do to the *? Is the * right now?", "")
-CHANGED_FRAMES = Example("An example with other frames", {},
+    "your change do to the *? Is the * right, so is it where the o is?", "")
+CHANGED_FRAMES = Example("with other frames", {},
     "An o is the true car. If you do not see it, it is under the *. What does your change do to "
-    "the *? Is the * right now?", "")
+    "the *? Is the * right, so is it where the o is?", "")
 OWN_SCENE = Example(f"Your own scene (the examples are 0 to {max(EXAMPLES)})", {
     "show_exact_mark": True},
     "The * is your car, and the o is the true car. Where you see no o, it is under the *. Does the "
-    "* stay on the o? Does it come to rest? (Set the scene by NAME=VALUE, as a_mps2=-2: without "
+    "* stay on the o? Does it come to rest? (Set the scene by NAME=VALUE, as in a_mps2=-2. Without "
     "settings the car stands still.)", "")
 
 # ==== Signals ===================================================================================
@@ -532,22 +532,30 @@ class Keys:
             self.look()
         return False
 
+    def is_held(self) -> bool:
+        """Whether it is paused, and nobody has asked for a step or for the end."""
+        return self.is_paused and self.steps == 0 and not self.why_quit
+
     def hold(self, text: str) -> None:
-        """While it is paused, and nobody steps or quits, show the text on a terminal."""
+        """While it is held, show the text on a terminal."""
+        if not self.is_held():
+            return
         text = text[:shutil.get_terminal_size().columns - 1]
         print_for_now(text)
         try:
-            while self.is_paused and self.steps == 0 and not self.why_quit:
+            while self.is_held():
                 time.sleep(LOOK_S)
                 self.look()
         finally:
             print_for_now(" " * len(text))
 
-    def wait_for_frame(self, due_s: float, text: str) -> bool:
-        """Wait until a frame is due or, in a pause, for a key. Returns whether it was no pause."""
+    def wait_for_frame(self, due_s: float, frame: int, t_s: float) -> bool:
+        """Wait until this frame is due or, in a pause, for a key. Returns whether it was no pause.
+
+        t_s is how much time has passed in the film.
+        """
         was_timed = self.wait(due_s)
-        if not was_timed:
-            self.hold(text)
+        self.hold(f"paused after frame {frame - 1}, t = {t_s:.2f} s: p resumes, s steps, x quits")
         if self.steps > 0:
             self.steps -= 1
         return was_timed

@@ -15,6 +15,7 @@ from examples import EXAMPLES
 from films import shown
 from reference import states
 
+
 def told(table: list[str]) -> dict[str, list[str]]:
     """What the table has for each car: its row, and its hops and its end."""
     lines: dict[str, list[str]] = {}

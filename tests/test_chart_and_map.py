@@ -10,45 +10,43 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import airtrack
-from airtrack import (
-    METHODS,
-    MOTIONS,
-    Point,
-    Record,
-    Track,
-    main,
-    order_text,
-    ten_records,
-    ten_true_runs,
-    verdict,
-    worst_of,
-)
+from airtrack import METHODS, MOTIONS, Frame, Point, Track, main, order_text, verdict, worst_of
+from examples import EXAMPLES
 from films import compared, filmed, furthest_m, shown
 
 Capture = pytest.CaptureFixture[str]
 COLUMN_M = 1 / 55
 
-def records(number: int, motion: str, correction: str, fps: int) -> list[Record]:
-    """The ten runs of an example with a method."""
+Frames = list[Frame]
+
+def ten_runs(number: int, motion: str, correction: str, fps: int) -> list[tuple[Frames, Frames]]:
+    """The frames of ten runs of an example with a method, and of their true cars."""
     track = compared(number, motion, correction)
-    return ten_records(track, fps, ten_true_runs(track, fps))
+    return [(airtrack.simulate(track, true_frames[0], [1 / fps] * (20 * fps)), true_frames)
+            for true_frames in airtrack.ten_true_runs(track, fps)]
 
 def largest_m(number: int, letter: str, fps: int) -> float:
-    """The chart's error of a method."""
-    return max(record.furthest_m() for record in records(number, fps=fps, **METHODS[letter]))
+    """How far a method gets from the truth in ten runs."""
+    return max(airtrack.furthest_m(*run) for run in ten_runs(number, fps=fps, **METHODS[letter]))
+
+def letters_of(number: int, motion: str, correction: str, fps: int) -> list[str]:
+    """The verdicts on the ten runs."""
+    track = compared(number, motion, correction)
+    return [verdict(track, *run, COLUMN_M) for run in ten_runs(number, motion, correction, fps)]
 
 # What is measured.
 
 def test_a_run_begins_at_the_truth_a_part_of_a_frame_later_and_lasts_20_s() -> None:
     track = compared(12, "backward", "rebound")
     truth = airtrack.truth_of(track)
-    record = records(12, "backward", "rebound", 60)[9]
+    frames, true_frames = ten_runs(12, "backward", "rebound", 60)[9]
     begins_s = 9 / 11 / 60
-    assert record.states[0] == airtrack.step(truth, 2.0, 0.0, begins_s)[:2]
-    assert [len(record.states), len(record.true_states)] == [1201, 1201]
-    assert record.times_s[-1] == 20
-    last_m, _ = record.true_states[-1]
-    assert last_m == pytest.approx(airtrack.step(truth, 2.0, 0.0, begins_s + 20)[0])
+    assert frames[0] == true_frames[0]
+    assert (frames[0].x_m, frames[0].v_mps) == airtrack.step(truth, 2.0, 0.0, begins_s)[:2]
+    assert len(true_frames) == 1201
+    assert true_frames[-1].t_s == pytest.approx(20)
+    ends_m, _, _ = airtrack.step(truth, 2.0, 0.0, begins_s + 20)
+    assert true_frames[-1].x_m == pytest.approx(ends_m)
 
 def test_in_example_12_a_b_and_c_have_order_1_and_d_has_order_2() -> None:
     orders = []
@@ -76,7 +74,9 @@ def test_the_cost_is_the_least_time_that_the_steps_of_a_simulated_second_take_ea
     # A step of a takes 2 us, one of b 3 us, and so on, but in the first two rounds all take 9 us.
     tracks = {letter: Track(x_m=number, **METHODS[letter])
               for number, letter in enumerate(METHODS, start=2)}
-    now_us, turns, ends_m = [0.0], [], {}
+    now_us: list[float] = [0.0]
+    turns: list[float] = []
+    ends_m: dict[float, float] = {}
 
     def step(track: Track, x_m: float, v_mps: float, dt_s: float) -> tuple[float, float, None]:
         assert dt_s == 1 / 30
@@ -114,18 +114,18 @@ def test_the_chart_of_a_flight_of_20_s_has_the_errors_of_a_closed_form(
     words = "99 a_mps2=1 left_edge_m=-1000 right_edge_m=1000 m_to_px=20"
     out = chart_of(words, monkeypatch, capsys)
     for fps in (10, 60, 240):
-        row, = re.findall(rf"(?m)^ *{fps}  (\S.*)", out)
+        row, = re.findall(rf"(?m)^ *{fps} (\S.*)", out)
         error_m, *others_m, no_error = row.split()[::2]
         assert float(error_m) == pytest.approx(20 / fps / 2, rel=0.05)  # a t dt/2
         assert max(map(float, others_m)) < 1e-9
         assert no_error == "-"  # e is the truth
-        assert row.split()[1::2] == [str(fps)] * 5
+        assert row.split()[1::2] == [f"{fps}.0"] * 5
     assert re.search(r"(?m)^order +1\.0 +none +none +none +-$", out)
-    within = r"(?m)^([a-e]): .* from +(\d+) FPS on: +(\d+) us"
+    within = r"(?m)^([a-e]): .* from +(\d+) FPS on: +(\d+)\.0 us"
     assert sorted(re.findall(within, out)) == [  # a column is 5 cm
         ("a", "240", "240"), *[(letter, "10", "10") for letter in "bcde"]]
-    assert re.search(r"(?m)^a: .* 60 us, up to 0.17 m off$", out)
-    assert re.search(r"(?m)^e: .* 60 us, .*by definition$", out)
+    assert re.search(r"(?m)^a: .* 60.0 us, up to 0.17 m off$", out)
+    assert re.search(r"(?m)^e: .* 60.0 us, .*by definition$", out)
     scale, = re.findall(r"(?m)^.* 1 mm .*$", out)
     drawn_at, = {line.index("|") for line in out.splitlines() if "|" in line}
     assert scale.index("1 cm ") < drawn_at < scale.index("0.1 m ")
@@ -142,8 +142,8 @@ def test_the_answer_is_the_cheapest_rate_from_which_on_all_errors_are_within_a_c
         *series("c", 0.1, 9, 9, 9, 11), *series("d", 3, 1, 1, 1, 1),
         *series("e", 1, 0, 0, 0, 0)], 0.01)
     _, *rows = capsys.readouterr().out.splitlines()
-    told = [re.findall(r"^([a-e]): .*?(?:from +(\d+) FPS on: +(\d+) us|at no rate) +(\d+) us", row)
-            for row in rows]
+    pattern = r"^([a-e]): .*?(?:from +(\d+) FPS on: +(\d+)\.0 us|at no rate) +(\d+)\.0 us"
+    told = [re.findall(pattern, row) for row in rows]
     assert told == [[("e", "15", "15", "60")], [("d", "15", "45", "180")],
                     [("b", "60", "120", "120")], [("a", "60", "240", "240")], [("c", "", "", "6")]]
 
@@ -155,13 +155,14 @@ def test_the_picture_has_each_point_below_its_error_and_beside_its_cost(capsys: 
     out = capsys.readouterr().out
     scale, = re.findall(r"(?m)^.* 1 mm .*$", out)
     found = []
-    for row in re.findall(r"(?m)^ +\d+ .*$", out):
+    for row in re.findall(r"(?m)^ +\d+\.0 .*$", out):
         for mark in re.finditer("[a-e+]", row):
-            found.append((mark[0], row.split()[0], scale[mark.start():].partition("  ")[0].strip()))
+            error = scale[mark.start():].partition("  ")[0].strip()
+            found.append((mark[0], float(row.split()[0]), error))
         if "+" in row:
             assert row.index("|") == scale.index("0.1 m ")  # a column of the film
-    assert sorted(found) == [("+", "100", "1 cm"), ("a", "10", "1 mm"), ("c", "10", "<=1 um"),
-                             ("d", "1", ">=10 m"), ("e", "100", "0.1 mm")]
+    assert sorted(found) == [("+", 100, "1 cm"), ("a", 10, "1 mm"), ("c", 10, "<=1 um"),
+                             ("d", 1, ">=10 m"), ("e", 100, "0.1 mm")]
 
 # What the map shows.
 
@@ -174,14 +175,17 @@ def test_the_picture_has_each_point_below_its_error_and_beside_its_cost(capsys: 
     ("-", 14, "exact", "replay", 1)])
 def test_each_letter_in_a_scene_of_which_it_is_known(
         letter: str, number: int, motion: str, correction: str, fps: int) -> None:
-    letters = [verdict(record, COLUMN_M) for record in records(number, motion, correction, fps)]
-    assert worst_of(letters) == letter
+    assert worst_of(letters_of(number, motion, correction, fps)) == letter
 
 # A run of 80 frames of 0.25 s. The track has 1 m, and a column is 1 cm. Both cars are at 0.5 m with
 # 1 m/s, but for what is changed in some of the frames. The last 5 s begin with frame 60.
 TRACK = Track(x_m=0.5, v_mps=1.0, a_mps2=-2.0, left_edge_m=0.0, right_edge_m=1.0)
 LATE = range(60, 81)
 FLIES, LIES = (0.5, 1.0), (0.0, 0.0)
+
+def each_quarter_s(states: list[tuple[float, float]]) -> Frames:
+    """Frames with these places and velocities."""
+    return [Frame(n / 4, 0.25, x_m, v_mps, None) for n, (x_m, v_mps) in enumerate(states)]
 
 def fast(gain: float) -> tuple[float, float]:
     """Two columns off, with so many J/kg more than the true car, which has 1.5."""
@@ -210,19 +214,17 @@ def test_the_bounds_of_the_letters(letter: str, true_state: tuple[float, float],
         true_states[frame] = true_state
     for frame in frames:
         states[frame] = state
-    record = Record(TRACK, [frame / 4 for frame in range(81)], states, true_states)
-    assert verdict(record, 0.01) == letter
+    assert verdict(TRACK, each_quarter_s(states), each_quarter_s(true_states), 0.01) == letter
 
 def test_a_true_car_that_moves_in_one_of_the_last_frames_does_not_lie_still() -> None:
-    true_states = [FLIES] * 61 + [LIES] * 20
-    record = Record(TRACK, [frame / 4 for frame in range(81)], [FLIES] * 81, true_states)
-    assert verdict(record, 0.01) == "G"
+    true_frames = each_quarter_s([FLIES] * 61 + [LIES] * 20)
+    assert verdict(TRACK, each_quarter_s([FLIES] * 81), true_frames, 0.01) == "G"
 
 @pytest.mark.parametrize(("frames", "letter"), [(8, "L"), (40, "S")])  # 3 and 11 of them are late
 def test_fewer_than_ten_frames_do_not_show_that_a_car_is_stuck(frames: int, letter: str) -> None:
-    states = [(-0.1, 0.0)] * (frames + 1)
-    times_s = [20 * frame / frames for frame in range(frames + 1)]
-    assert verdict(Record(TRACK, times_s, states, [FLIES] * (frames + 1)), 0.01) == letter
+    stuck = [Frame(20 * n / frames, 0.0, -0.1, 0.0, None) for n in range(frames + 1)]
+    flying = [frame._replace(x_m=0.5, v_mps=1.0) for frame in stuck]
+    assert verdict(TRACK, stuck, flying, 0.01) == letter
 
 @pytest.mark.parametrize(("letters", "letter"), [
     ("XGL-", "x"), ("SHPP", "s"), ("HHGL", "h"), ("HH", "H"), ("GL", "W"), ("GLLG", "W"),
@@ -258,7 +260,7 @@ def test_film_chart_and_map_agree_on_what_is_within_a_column() -> None:
         in_film_m = furthest_m(filmed(10, 200, **METHODS[letter]))  # one of the ten runs
         in_chart_m = largest_m(10, letter, 10)
         assert in_film_m <= in_chart_m + 1e-9
-        in_map = {verdict(record, COLUMN_M) for record in records(10, fps=10, **METHODS[letter])}
+        in_map = set(letters_of(10, fps=10, **METHODS[letter]))
         assert (in_map == {"-"}) is (in_chart_m <= COLUMN_M)
 
 @given(number=st.sampled_from([1, 2, 3, 8, 10, 13, 14, 18, 19, 20, 22]),
@@ -268,9 +270,9 @@ def test_film_chart_and_map_agree_on_what_is_within_a_column() -> None:
 def test_a_film_has_the_verdict_of_the_first_of_the_map_s_ten_runs_whenever_it_is_ended(
         number: int, motion: str, correction: str, fps: int) -> None:
     track = compared(number, motion, correction)
-    scene = airtrack.scene_of(airtrack.EXAMPLES[number].settings)
-    first = ten_records(track, fps, ten_true_runs(track, fps))[0]
-    name, _ = airtrack.VERDICTS[verdict(first, scene.column_m())]
+    column_m = airtrack.scene_of(EXAMPLES[number].settings).column_m()
+    first = ten_runs(number, motion, correction, fps)[0]
+    name, _ = airtrack.VERDICTS[verdict(track, *first, column_m)]
     words = f"{number} motion={motion} correction={correction} fps_target={fps} auto_off=False"
     for frames in (1, 7 * fps, 20 * fps, 33 * fps):
         assert told(f"{words} --frames={frames}") == name

@@ -18,6 +18,7 @@ from airtrack import ALL_CORRECTIONS, COMMANDS, MOTIONS, SETTINGS, Scene, main
 from examples import EXAMPLES
 from films import COMMAND, HERE, environment, shown
 
+
 def ended(words: list[str]) -> tuple[object, str]:
     """The exit status of a command line, and what stands on standard error."""
     with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()) as err:

@@ -59,9 +59,8 @@ def test_with_jitter_frames_are_irregular_and_a_fast_film_has_the_same(
 @pytest.mark.parametrize("keys", ["pp", "PP", CTRL_S * 2, CTRL_S + CTRL_Q, CTRL_S + "p"])
 def test_p_pauses_and_then_the_film_goes_on_without_a_race_or_a_leap(
         keys: str, clock: Clock, play: Play) -> None:
-    pauses, resumes = keys
     out = play(f"{FREE} fps_target=10 use_observed_dt=True",
-               NOW | {0.5: CTRL_Q, 1: pauses, 31: resumes, 32: "x"})
+               NOW | {0.5: CTRL_Q, 1: keys[0], 31: keys[1], 32: "x"})
     *others_s, longest_s = sorted(clock.lengths_s())
     assert others_s == pytest.approx([0.1] * 18, abs=0.002)
     assert longest_s == pytest.approx(30, abs=0.2)

@@ -3,7 +3,7 @@
     python tests/tool_pictures.py                                        all that is in .github/
     python tests/tool_pictures.py chart [EXAMPLE] [NAME=VALUE ...] FILE  a .png, .svg or .pdf
 
-The moving picture is a terminal in which a film scrolls. The worksheet's source is
+The moving pictures are terminals in which a film scrolls. The worksheet's source is
 .github/worksheet.txt. Of it the tool makes a PDF of two pages.
 """
 
@@ -21,70 +21,82 @@ HERE = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(HERE))
 
 from airtrack import (  # noqa: E402
+    CHART_FPS,
+    LEGEND,
     METHODS,
-    compared_by,
+    THE_TRUTH,
+    compared_scene,
     make_parser,
-    method_text,
-    print_table,
+    measured,
+    of_method,
+    sort_words,
     track_text,
-    wanted_by,
 )
 
 PAGES = HERE / ".github"
-COLUMNS, FRAMES, ROWS = 88, 120, 18  # as wide as a page has room for
-COMMAND = f"python airtrack.py 17 m_to_px=36 width_px={COLUMNS}"
+FILMS = {  # as wide as a page has room for: command, frames, and how many rows the terminal has
+    "example-10.gif": ("python airtrack.py 10 d m_to_px=25 width_px=57", 79, 18),
+    "example-17.gif": ("python airtrack.py 17 m_to_px=36 width_px=88", 120, 18),
+}
 LINE_PX, LETTER_PX, EDGE_PX = 20, 10, 8
 PAPER, GREY = (24, 24, 27), (190, 190, 196)
 INK = {"0": (248, 113, 113), "o": (74, 222, 128), "*": (250, 204, 21)}
 
-def screen(lines: list[str]) -> Image.Image:
-    """The terminal when the last of the lines after the command has just been printed."""
-    size = COLUMNS * LETTER_PX + 2 * EDGE_PX, ROWS * LINE_PX + 2 * EDGE_PX
+def screen(lines: list[str], columns: int, picture_px: int, rows: int) -> Image.Image:
+    """The terminal when the last of the lines has just been printed. The marks are coloured."""
+    size = columns * LETTER_PX + 2 * EDGE_PX, rows * LINE_PX + 2 * EDGE_PX
     picture = Image.new("RGB", size, PAPER)
     draw = ImageDraw.Draw(picture)
     draw.fontmode = "1"  # no shades between ink and paper: few colours, and each frame the same
     font = ImageFont.truetype(findfont("DejaVu Sans Mono:bold"), 16)
-    for row, line in enumerate([f"$ {COMMAND}", "", *lines][-ROWS:]):
+    for row, line in enumerate(lines[-rows:]):
         for column, letter in enumerate(line):
-            colour = GREY if line.startswith("$") else INK.get(letter, GREY)
+            colour = GREY
+            if column < picture_px and not line.startswith("$"):
+                colour = INK.get(letter, GREY)
             draw.text((EDGE_PX + column * LETTER_PX, EDGE_PX + row * LINE_PX), letter, colour, font)
     return picture
 
-def moving_picture(file: Path) -> None:
-    words = [*COMMAND.split()[1:], "--fast", "--frames", str(FRAMES)]
+def moving_picture(file: Path, command: str, count: int, rows: int) -> None:
+    words = [*command.split()[1:], "--fast", "--frames", str(count)]
     out = subprocess.run([sys.executable, *words], text=True, check=True, cwd=HERE,
                          capture_output=True).stdout
-    lines = out.partition("\n\n")[2].splitlines()[:FRAMES]
-    frames = [screen(lines[:n]).quantize(9) for n in range(ROWS - 2, FRAMES + 1)]
+    lines = [f"$ {command}", "", *out.partition("\n\n")[2].splitlines()[:count]]
+    width_px = int(command.partition("width_px=")[2])
+    columns = max([len(line) for line in lines])
+    frames = [screen(lines[:n], columns, width_px, rows).quantize(9)
+              for n in range(rows, len(lines) + 1)]
     frames[0].save(file, save_all=True, append_images=frames[1:], loop=0,
                    duration=[100] * (len(frames) - 1) + [2000], optimize=False)
 
 def chart(words: list[str], file: Path) -> None:
     """Measure as the program's chart does, and draw the points on two logarithmic scales."""
-    wanted = wanted_by(make_parser().parse_args(["chart", *words]), [])
-    scene = compared_by(wanted)
+    options = make_parser().parse_args(["chart", *words])
+    sort_words(options, options.words)
+    scene = compared_scene(options)
     figure = Figure(figsize=(8, 6), dpi=150, layout="constrained")
-    heading = f"Example {wanted.number}: {track_text(scene)}"
+    heading = f"Example {options.number}: {track_text(scene.track)}"
     figure.suptitle(f"Speed against accuracy\n{textwrap.fill(heading, 110)}", fontsize=9)
     axes = figure.add_subplot(
         xscale="log", yscale="log", xlabel="largest error in ten runs (m): better to the left",
         ylabel="time for a simulated second (\N{MICRO SIGN}s): better upwards")
     axes.invert_yaxis()
     axes.margins(x=0.08)  # room for the labels
-    points = print_table(scene)
-    # An error of 0 has no place on a logarithmic scale. So it is drawn at the left edge.
-    left_m = max(1e-17, min(point.error_m for point in points["d"]) / 30)
-    for (letter, series), marker in zip(points.items(), "oxD+v", strict=True):
+    points = []
+    for fps in CHART_FPS:
+        points += measured(scene.track, fps)
+    # An error of 0 has no place on a logarithmic scale. So e is drawn at the left edge.
+    left_m = max(1e-17, min([point.error_m for point in of_method("d", points)]) / 30)
+    for letter, marker in zip(METHODS, "oxD+v", strict=True):
+        series = of_method(letter, points)
         errors_m = [max(point.error_m, left_m) for point in series]
         costs_us = [point.cost_us for point in series]
-        label = f"{letter}: {method_text(*METHODS[letter])}"
-        axes.plot(errors_m, costs_us, f"{marker}-", label=label)
-        if letter in "bd":  # the rates, once on either side
+        axes.plot(errors_m, costs_us, f"{marker}-", label=LEGEND[letter])
+        if letter in ("b", "d", THE_TRUTH):  # the rates
             for point, error_m in zip(series, errors_m, strict=True):
                 axes.annotate(f"  {point.fps}", (error_m, point.cost_us), fontsize=7)
-    axes.text(left_m, min(point.cost_us for point in points["e"]) / 1.3, "e has no error",
-              fontsize=8, horizontalalignment="left")
-    axes.axvline(1 / scene.m_to_px, color="black", linestyle="--", label="a column of the film")
+    axes.text(left_m, 1.0, "e is the truth,\nso it has no error", fontsize=8)
+    axes.axvline(scene.column_m(), color="black", linestyle="--", label="a column of the film")
     axes.legend(loc="lower center", bbox_to_anchor=(0.5, -0.28), ncols=3, fontsize=8)
     figure.savefig(file)
 
@@ -104,7 +116,8 @@ def main(words: list[str]) -> None:
     if words:
         chart(words[1:-1], Path(words[-1]))
         return
-    moving_picture(PAGES / "example-17.gif")
+    for name, (command, count, rows) in FILMS.items():
+        moving_picture(PAGES / name, command, count, rows)
     chart([], PAGES / "chart.png")
     worksheet(PAGES / "worksheet.pdf")
 
