@@ -202,9 +202,9 @@ def rewind(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> 
     late_s, met_mps = arrival(depth_m, inward_mps, -inward_mps2)  # 0.030 s, 2.41 m/s
     # Run it forwards again, from the wall, after the bounce, for the same time.
     new_depth_m, new_inward_mps = exact(0.0, -CR * met_mps, inward_mps2, late_s)
-    # If the car is in the wall again, there was a second bounce. Put the car on the wall, at the
-    # speed that it has there, and leave the second bounce to the next frame. (In the wall the car
-    # was faster than on it. So this leaves a little too much energy.)
+    # If the car is in the wall again, there was a second bounce. Put the car on the wall, at this
+    # velocity, and leave the second bounce to the next frame. (In the wall the car is faster than
+    # it was on it. So this leaves a little too much energy.)
     return min(new_depth_m, 0.0), new_inward_mps
 
 CORRECTIONS = {"none": none, "surface": surface, "rebound": rebound, "conserve": conserve,
@@ -217,11 +217,11 @@ EXACT_ONLY = ["rewind", "replay"]  # they need the exact motion
 # ==== 3. A frame ================================================================================
 # How does the car get from one frame to the next?
 
-def number(default: float, meaning: str, least: float, largest: float) -> Any:
+def a_number(default: float, meaning: str, least: float, largest: float) -> Any:
     """A setting that is a number. The dataclass keeps what it may be, as metadata of its field."""
     return field(default=default, metadata={"meaning": meaning, "range": (least, largest)})
 
-def choice(default: Any, meaning: str, *choices: Any) -> Any:
+def a_choice(default: Any, meaning: str, *choices: Any) -> Any:
     """A setting that is one of several words, or True or False. (Section 10 reads the metadata.)"""
     return field(default=default, metadata={"meaning": meaning, "choices": choices})
 
@@ -229,14 +229,14 @@ def choice(default: Any, meaning: str, *choices: Any) -> Any:
 class Track:
     """The track and its car: all that the physics needs to know."""
 
-    x_m: float = number(1.1, "start position in m", -10_000, 10_000)
-    v_mps: float = number(0.0, "start velocity in m/s: below 0 to the left", -10_000, 10_000)
-    a_mps2: float = number(0.0, "acceleration in m/s^2: below 0 to the left", -10_000, 10_000)
-    left_edge_m: float = number(0.25, "position of the left wall in m", -10_000, 10_000)
-    right_edge_m: float = number(2.2, "position of the right wall in m", -10_000, 10_000)
-    CR: float = number(0.8, "speed after a bounce / speed before it", 0, 1)
-    motion: str = choice("backward", "how the car is moved", *MOTIONS)
-    correction: str = choice("rebound", "how a collision is settled", *ALL_CORRECTIONS)
+    x_m: float = a_number(1.1, "start position in m", -10_000, 10_000)
+    v_mps: float = a_number(0.0, "start velocity in m/s: below 0 to the left", -10_000, 10_000)
+    a_mps2: float = a_number(0.0, "acceleration in m/s^2: below 0 to the left", -10_000, 10_000)
+    left_edge_m: float = a_number(0.25, "position of the left wall in m", -10_000, 10_000)
+    right_edge_m: float = a_number(2.2, "position of the right wall in m", -10_000, 10_000)
+    CR: float = a_number(0.8, "speed after a bounce / speed before it", 0, 1)
+    motion: str = a_choice("backward", "how the car is moved", *MOTIONS)
+    correction: str = a_choice("rebound", "how a collision is settled", *ALL_CORRECTIONS)
 
     def length_m(self) -> float:
         """The distance between the walls."""
@@ -321,16 +321,16 @@ class Scene:
     """A track, and how it is filmed."""
 
     track: Track = Track()
-    fps_target: float = number(30.0, "frames a second, 1/dt", 0.1, 1000)
-    use_observed_dt: bool = choice(False, "dt is how long the frame lasted", False, True)
-    jitter: float = number(0.0, "frames vary by up to this part", 0, 0.9)
-    auto_off: bool = choice(True, "stop when the car is at rest", False, True)
-    m_to_px: float = number(55.0, "zoom in columns for each m", 0.0001, 1000)
-    width_px: int = number(135, "width of the picture in columns", 10, 1000)
-    show_start_mark: bool = choice(False, "draw a . at the start", False, True)
-    show_collision_mark: bool = choice(True, "draw a 0 where a move ended", False, True)
-    show_exact_mark: bool = choice(False, "draw an o for the true car", False, True)
-    show_methods: bool = choice(False, "draw a to e for five methods", False, True)
+    fps_target: float = a_number(30.0, "frames a second, 1/dt", 0.1, 1000)
+    use_observed_dt: bool = a_choice(False, "dt is how long the frame lasted", False, True)
+    jitter: float = a_number(0.0, "frames vary by up to this part", 0, 0.9)
+    auto_off: bool = a_choice(True, "stop when the car is at rest", False, True)
+    m_to_px: float = a_number(55.0, "zoom in columns for each m", 0.0001, 1000)
+    width_px: int = a_number(135, "width of the picture in columns", 10, 1000)
+    show_start_mark: bool = a_choice(False, "draw a . at the start", False, True)
+    show_collision_mark: bool = a_choice(True, "draw a 0 where a move ended", False, True)
+    show_exact_mark: bool = a_choice(False, "draw an o for the true car", False, True)
+    show_methods: bool = a_choice(False, "draw a to e for five methods", False, True)
 
     def column_m(self) -> float:
         """How wide a column of the film is."""
@@ -712,9 +712,9 @@ def simulate(track: Track, start: Frame, lengths_s: list[float]) -> list[Frame]:
         frames.append(frame)
     return frames
 
-def lengths_of(frames: list[Frame]) -> list[float]:
-    """How long each of the frames after the start lasted."""
-    return [frame.dt_s for frame in frames[1:]]
+def beside(other: list[Frame], track: Track, start: Frame) -> list[Frame]:
+    """A car on this track, in frames as long as the other's."""
+    return simulate(track, start, [frame.dt_s for frame in other[1:]])
 
 def furthest_m(frames: list[Frame], true_frames: list[Frame]) -> float:
     """How far a car was at most from its true car."""
@@ -773,7 +773,7 @@ def measured(track: Track, fps: int) -> list[Point]:
         error_m = 0.0
         if letter != THE_TRUTH:
             for true_frames in true_runs:
-                frames = simulate(method_track, true_frames[0], lengths_of(true_frames))
+                frames = beside(true_frames, method_track, true_frames[0])
                 error_m = max(error_m, furthest_m(frames, true_frames))
         points.append(Point(letter, fps, error_m, costs[letter]))
     return points
@@ -787,6 +787,8 @@ def of_method(letter: str, points: list[Point]) -> list[Point]:
 
 def order_text(points: list[Point], track_m: float) -> str:
     """The order of a method: at order 1 twice the rate divides the error by 2, at order 2 by 4."""
+    if all(point.error_m == 0 for point in points):
+        return "-"
     # Errors as large as the track tell nothing of the order. So take those below a tenth of it.
     small = [point for point in points if point.error_m < track_m / 10]
     # Round-off has no order. (5e-10 of the lesson's track is 1e-9 m.)
@@ -803,12 +805,10 @@ def order_text(points: list[Point], track_m: float) -> str:
     return f"{-slope:.1f}"
 
 def row_text(points: list[Point]) -> str:
-    """A row of the table: the points of one frame rate."""
+    """A row of the table: the points of one frame rate. A - is no error, not even round-off."""
     row = f"{points[0].fps:4}"
     for point in points:
-        error = f"{point.error_m:.1e}"
-        if point.letter == THE_TRUTH:
-            error = "-"
+        error = f"{point.error_m:.1e}" if point.error_m > 0 else "-"
         row += f"{error:>8}{point.cost_us:7.1f}"
     return row
 
@@ -887,8 +887,6 @@ def chart(scene: Scene, words: str) -> None:
     orders = "order"
     for letter in METHODS:
         order = order_text(of_method(letter, points), scene.track.length_m())
-        if letter == THE_TRUTH:
-            order = "-"
         orders += f"{order:>7}" + " " * 8
     print(orders.rstrip())
     print()
@@ -974,7 +972,7 @@ def stability(scene: Scene, words: str) -> None:
             for fps in MAP_FPS:
                 letters = []
                 for true_frames in true_runs[fps]:
-                    frames = simulate(track, true_frames[0], lengths_of(true_frames))
+                    frames = beside(true_frames, track, true_frames[0])
                     letters.append(verdict(track, frames, true_frames, column_m))
                 row += worst_of(letters).rjust(6)
             print(row, flush=True)
@@ -1039,8 +1037,6 @@ def has_colours() -> bool:
     terminal = os.environ.get("TERM", "dumb")
     return sys.stdout.isatty() and terminal != "dumb" and not os.environ.get("NO_COLOR")
 
-LEAST_WIDTH_PX = 10
-
 def fitted(scene: Scene, has_details: bool) -> Scene:
     """The scene, drawn smaller if its lines are wider than the terminal."""
     columns = shutil.get_terminal_size().columns
@@ -1048,7 +1044,7 @@ def fitted(scene: Scene, has_details: bool) -> Scene:
         true_m = 0.0 if scene.show_exact_mark else None
         # Places and speeds in a scene hardly ever need more characters than -1000.00.
         columns -= len(details_text(-1000, -1000, scene.fps_target, true_m))
-    columns = max(columns, LEAST_WIDTH_PX)
+    columns = max(columns, 10)  # the least that a scene may have, even if lines are broken then
     if columns >= scene.width_px or not sys.stdout.isatty():
         return scene
     # What was in the last column must stay in the last column. The first column has number 0.
@@ -1104,7 +1100,7 @@ def with_true_frames(car: Car, scene: Scene) -> tuple[list[Frame], list[Frame]]:
     while frames[-1].t_s < SPAN_S - ROUND_OFF_S:
         frames.append(next_frame(car.track, frames[-1], planned_dt(scene, len(frames))))
     truth = Car(truth_of(car.track))
-    return frames, simulate(truth.track, truth.frames[0], lengths_of(frames))
+    return frames, beside(frames, truth.track, truth.frames[0])
 
 def film_verdict(track: Track, frames: list[Frame], true_frames: list[Frame],
                  column_m: float) -> str:
@@ -1167,10 +1163,8 @@ def film(wanted: Film) -> None:
     say(", ".join([title, *wanted.typed]))
     say(scene_text(scene))
     drawn = fitted(scene, wanted.has_details)
-    if drawn.width_px == LEAST_WIDTH_PX:
-        say("The terminal is too narrow: lines may be broken.")
-    elif drawn.width_px < scene.width_px:
-        say(f"The picture is drawn {drawn.width_px} columns wide, to fit into the terminal.")
+    if drawn.width_px < scene.width_px:
+        say(f"The picture is drawn {drawn.width_px} columns wide, because the terminal is narrow.")
     view = View(drawn, wanted.has_details, has_colours() and not wanted.is_fast)
     plus = wanted.unchanged.track if texts is CHANGED else None
     cars = cars_of(scene, plus)

@@ -104,8 +104,8 @@ def test_the_rows_of_the_map_are_the_program_s() -> None:
         motion, _, correction, *letters = row.split()
         track = compared(12, motion, correction)
         for fps, letter in zip(rates, letters, strict=True):
-            runs = [verdict(track, airtrack.simulate(track, true[0], airtrack.lengths_of(true)),
-                            true, 1 / 55) for true in airtrack.ten_true_runs(track, fps)]
+            runs = [verdict(track, airtrack.beside(true, track, true[0]), true, 1 / 55)
+                    for true in airtrack.ten_true_runs(track, fps)]
             assert airtrack.worst_of(runs) == letter
 
 @pytest.mark.parametrize(("letter", "fps"), [("a", 480), ("c", 240), ("d", 5)])
@@ -113,9 +113,8 @@ def test_a_method_stays_within_a_column_from_the_rate_that_is_told(letter: str, 
     errors_m = {}
     for rate in (fps, airtrack.CHART_FPS[airtrack.CHART_FPS.index(fps) - 1]):
         track = compared(12, **airtrack.METHODS[letter])
-        errors_m[rate] = max(
-            airtrack.furthest_m(airtrack.simulate(track, true[0], airtrack.lengths_of(true)), true)
-            for true in airtrack.ten_true_runs(track, rate))
+        errors_m[rate] = max(airtrack.furthest_m(airtrack.beside(true, track, true[0]), true)
+                             for true in airtrack.ten_true_runs(track, rate))
     at_fps_m, below_m = errors_m.values()
     assert at_fps_m <= 1 / 55 < below_m
 
