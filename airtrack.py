@@ -787,8 +787,6 @@ def of_method(letter: str, points: list[Point]) -> list[Point]:
 
 def order_text(points: list[Point], track_m: float) -> str:
     """The order of a method: at order 1 twice the rate divides the error by 2, at order 2 by 4."""
-    if all(point.error_m == 0 for point in points):
-        return "-"
     # Errors as large as the track tell nothing of the order. So take those below a tenth of it.
     small = [point for point in points if point.error_m < track_m / 10]
     # Round-off has no order. (5e-10 of the lesson's track is 1e-9 m.)
