@@ -5,7 +5,7 @@ from decimal import Decimal
 from typing import Any
 
 import pytest
-from hypothesis import assume, given
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import airtrack
@@ -76,11 +76,11 @@ NUMBERS = st.sampled_from([-1000.0, -1.0, -1e-5, 0.0, 1e-5, 1.0, 1000.0]) | st.f
        right_edge_m=st.sampled_from([-999.0, 2.2, 1000.0]), motion=st.sampled_from([*MOTIONS]),
        correction=st.sampled_from(ALL_CORRECTIONS), fps_target=st.sampled_from([0.1, 7.0, 30.0]),
        jitter=st.floats(0, 0.9), use_observed_dt=st.booleans())
-def test_the_table_of_any_scene_fits_in_80_columns_and_has_no_nan(**settings: Any) -> None:
-    is_for_all = settings["motion"] == "exact" and settings["x_m"] <= settings["right_edge_m"]
-    assume(is_for_all or settings["correction"] not in EXACT_ONLY)
-    settings_text = " ".join([f"{name}={value}" for name, value in settings.items()])
-    table = shown(f"99 {settings_text} left_edge_m=-1000 show_methods=True --frames=60").table
+def test_the_table_of_any_scene_fits_in_80_columns_and_has_no_nan(**changes: Any) -> None:
+    is_for_all = changes["motion"] == "exact" and changes["x_m"] <= changes["right_edge_m"]
+    assume(is_for_all or changes["correction"] not in EXACT_ONLY)
+    words = " ".join([f"{name}={value}" for name, value in changes.items()])
+    table = shown(f"99 {words} left_edge_m=-1000 show_methods=True --frames=60").table
     assert "nan" not in "".join(table)
     assert max(len(line) for line in table) <= 80
     assert set(told(table)) == set("*oabcde")
@@ -152,6 +152,30 @@ def test_a_car_that_takes_very_long_to_come_to_rest_is_asked_in_each_frame_at_no
     words = "99 x_m=0.25 a_mps2=-1e-6 fps_target=1000 motion=exact correction=surface"
     assert len(shown(f"{words} --frames=40000 show_exact_mark=False").lines) == 40000
 
+# Another unit.
+
+@given(number=st.sampled_from([*EXAMPLES]), motion=st.sampled_from([*MOTIONS]),
+       correction=st.sampled_from(ALL_CORRECTIONS), height=st.floats(0, 1), v_mps=st.floats(-2, 2))
+@settings(max_examples=60)
+def test_a_scene_in_another_unit_is_the_same_film_with_the_same_end_and_verdict(
+        number: int, motion: str, correction: str, height: float, v_mps: float) -> None:
+    assume(motion == "exact" or correction not in EXACT_ONLY)
+    ours: dict[str, Any] = {name: each.default for name, each in airtrack.SETTINGS.items()}
+    ours |= EXAMPLES[number].settings | {
+        "motion": motion, "correction": correction, "v_mps": v_mps, "show_exact_mark": True}
+    ours["x_m"] = ours["left_edge_m"] + height * (ours["right_edge_m"] - ours["left_edge_m"])
+    theirs = ours | {"m_to_px": ours["m_to_px"] / 128}
+    for name in ("x_m", "v_mps", "a_mps2", "left_edge_m", "right_edge_m"):
+        theirs[name] = 128 * ours[name]  # a power of two, so without round-off
+    films = []
+    for each in (ours, theirs):
+        words = " ".join([f"{name}={value}" for name, value in each.items()])
+        films.append(shown(f"99 {words} --frames=200"))
+    assert films[0].lines == films[1].lines
+    assert films[0].ending == films[1].ending
+    ends = [[end for _, end in told(film.table).values()] for film in films]
+    assert ends[0] == ends[1]
+
 # What is a change.
 
 @pytest.mark.parametrize(("words", "marks", "is_changed"), [
@@ -178,6 +202,16 @@ def test_the_plus_is_where_the_example_as_it_is_has_its_car(change: str) -> None
     seen = {after[before.index("*")] for before, after in zip(as_it_is, changed, strict=True)}
     assert "+" in seen
     assert seen <= {"+", "*"}  # the * may hide it
+
+@pytest.mark.parametrize(("words", "name"), [
+    ("14 fps_target=100", "gets out"), ("8 fps_target=30 CR=0.5", "has too little energy"),
+    ("22 jitter=0.5 use_observed_dt=True", "hops on"), ("8 CR=0.5", None), ("14", None)])
+def test_after_a_film_with_other_frames_the_verdict_on_the_example_as_it_is_is_told(
+        words: str, name: str | None) -> None:
+    *_, last = shown(f"{words} --frames=5").table
+    assert last.startswith("Without your change") is (name is not None)
+    if name is not None:
+        assert f"{name}." in last
 
 def test_after_a_changed_film_the_map_is_advised_by_a_command_for_the_same_scene(
         play: Play, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -108,10 +108,12 @@ def test_a_pause_is_told_in_a_line_that_vanishes_and_a_pipe_is_spared_it(
     assert "\r" not in play("10", keys)
     monkeypatch.setattr("sys.stdout.isatty", lambda: True)
     monkeypatch.setenv("COLUMNS", "50")
-    told, blanks, of_the_film, *_ = re.findall(r"([^\r\n]*)\r", play("10", keys))
+    told, blanks, of_the_film, blanks_again = re.findall(r"([^\r\n]*)\r", play("10", keys))
     assert blanks == " " * len(told)
+    assert blanks_again == " " * len(of_the_film)
     assert 10 < len(told) < 50  # from the last column on it would begin a new line
     assert re.search(r"\b100\b.*\b10\.0", of_the_film)  # which frame and which moment it is
+    assert "\r" not in play("10", NOW | {4: "x"})
 
 @pytest.mark.parametrize(("keys", "frames_s"), [
     ({1: "\r"}, [1, 1.1]), ({1: "\n"}, [1, 1.1]), ({1: CTRL_C}, [1, 1.1]),

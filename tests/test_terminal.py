@@ -40,6 +40,16 @@ def test_an_exception_in_a_film_is_shown_and_leaves_the_terminal_as_found() -> N
         assert terminal.program.wait(PATIENCE_S) == 1
         assert terminal.mode() == terminal.found
 
+def test_a_signal_in_a_pause_takes_its_text_away() -> None:
+    with Terminal(*FILM) as terminal:
+        terminal.until(FRAME)
+        terminal.press("p")
+        until_it_is_paused(terminal)
+        _, _, text = terminal.all.rstrip("\r").rpartition("\n")
+        terminal.press("SIGTERM")
+        terminal.ends(143)
+        assert terminal.all.endswith("\r" + " " * len(text) + "\r")
+
 @pytest.mark.parametrize(("key", "status"), [("SIGTERM", 143), ("x", 0)])
 def test_while_a_film_ends_a_signal_is_ignored(key: str, status: int) -> None:
     change = ("real, flush = examples.termios.tcsetattr, examples.termios.TCSAFLUSH; "
@@ -160,5 +170,7 @@ def test_in_a_narrow_terminal_no_line_wraps_and_one_says_that_the_picture_is_sma
             terminal.ends(0)
         lines = terminal.all.splitlines()
         assert max(len(line) for line in lines) <= columns
+        # A paragraph is no wider than is good to read.
+        assert max(len(line) for line in lines if FRAME not in line) <= 100
         picture, = [line.partition("x =")[0] for line in lines if FRAME in line]
         assert any(f" {len(picture)} columns" in line for line in lines) is (columns == 80)
