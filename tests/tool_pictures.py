@@ -35,8 +35,8 @@ from airtrack import (  # noqa: E402
 
 PAGES = HERE / ".github"
 FILMS = {  # as wide as a page has room for: command, frames, and how many rows the terminal has
-    "example-10.gif": ("python airtrack.py 10 d m_to_px=25 width_px=57", 79, 18),
-    "example-17.gif": ("python airtrack.py 17 m_to_px=36 width_px=88", 120, 18),
+    "example-10.gif": ("python3 airtrack.py 10 d m_to_px=25 width_px=57", 79, 18),
+    "example-17.gif": ("python3 airtrack.py 17 m_to_px=36 width_px=88", 120, 18),
 }
 LINE_PX, LETTER_PX, EDGE_PX = 20, 10, 8
 PAPER, GREY = (24, 24, 27), (190, 190, 196)
