@@ -23,7 +23,7 @@ def test_the_first_bounce_is_in_this_frame(number: int, frame: int, changes: Cha
 
 @pytest.mark.parametrize(("number", "turns_m", "changes"), [
     (1, [0.25 + 0.87, 0.25 + 0.46, 0.25 + 0.21], {}), (7, [1.989, 2] * 2, {}),
-    (8, [1.88, 2] * 2, {}), (9, [1.81], {}), (10, [2] * 7, {}), (11, [2] * 7, {}),
+    (8, [1.88, 2] * 2, {}), (9, [1.81, 1.68, 1.59], {}), (10, [2] * 7, {}), (11, [2] * 7, {}),
     (13, [1.91], {}), (13, [1.79], TRUTH), (17, [2] * 7, CONSERVE)])
 def test_on_its_way_to_the_right_it_turns_here(
         number: int, turns_m: list[float], changes: Changes) -> None:
@@ -50,9 +50,30 @@ def test_the_hops_take_so_many_lines(
         number: int, first_hops: list[int], changes: Changes) -> None:
     assert hops(filmed(number, 600, **changes))[:len(first_hops)] == first_hops
 
+@pytest.mark.parametrize(("number", "frames", "g_dt_mps", "changes", "left_at", "came_at"), [
+    (19, 90, 0.2, {}, [1.502, 1.498, 1.302, 1.298], [1.498, 1.302, 1.298]),
+    (19, 90, 0.2, {"motion": "exact"}, [1.702, 1.898, 1.902], [1.898, 1.902]),
+    (20, 1000, 0.2, {}, [0.8], []), (20, 1000, 0.2, {}, [], [1.0]),
+    (22, 2000, 1 / 6, {}, [1.185], []), (22, 2000, 1 / 6, {}, [], [1.48])])
+def test_a_hop_leaves_and_comes_back_at_these_speeds(
+        number: int, frames: int, g_dt_mps: float, changes: Changes, left_at: list[float],
+        came_at: list[float]) -> None:
+    car = filmed(number, frames, **changes)
+    left, came = [], []
+    for begins, n in zip(bounces(car), hops(car), strict=False):
+        left.append(car.frames[begins].v_mps)
+        came.append(n * g_dt_mps - left[-1])
+    for told, found in ((left_at, left), (came_at, came)):
+        if number == 19:
+            assert found[:len(told)] == pytest.approx(told, abs=1e-4)
+        elif told:
+            assert found[-1] == pytest.approx(told[0], abs=0.006)
+
 def test_0_is_at_the_left_wall_after_45_s_and_flies_until_44_s() -> None:
     frames = filmed(0, 3000).frames
     assert frames[-1].x_m == pytest.approx(0.5, abs=1e-3)
+    right_s = [frame.t_s for frame in frames if frame.mark_m is not None and frame.mark_m > 17]
+    assert len(right_s) == 3
     flies_s = [frame.t_s for frame in frames if frame.mark_m is None]
     assert flies_s[-1] == pytest.approx(44, abs=0.5)
     line, = shown("0 --frames=1").lines
