@@ -1,27 +1,27 @@
 #!/usr/bin/env python3
 """Air track: a car between two walls, drawn as one line of text for each frame.
-The lines stand below each other. So the film is a graph: position to the right,
-time downwards.
+Each line is printed below the one before. So the film is a graph: position to
+the right, time downwards.
 
-A WORD is one of these, in any order:
+Type any of these WORDs, in any order:
     EXAMPLE      the number of an example. Without it, a film shows example 1,
                  and chart and stability take example 12.
     d            details after each line: position x, velocity v, frame rate FPS
                  and, if the true car o is drawn, err: how far the car is to the
                  right of the o
     NAME=VALUE   a setting that replaces the example's own
-    chart        no film, but speed against accuracy: what each method costs,
-                 and how wrong it is
+    chart        no film, but speed against accuracy: what five methods cost,
+                 and how wrong they are
     stability    no film, but the map: at which frame rates each method fails
 
 For example: python airtrack.py 10 d CR=0.9
 
 In a film, * is the car and | is a wall. < or > is the car, too, when it is out
 of the picture. If the car bounces, 0 is where it would be now without the wall.
-A . is the start. o is the true car. + is the car of the example as it is, if
-you have changed something that moves the car, but not the frames. a to e are
-the cars of five methods. A table after the film says which cars are right. The
-floor is the wall to which the car is accelerated.
+A . is the start. o is the true car. a to e are the cars of five methods. If you
+change an example, but not its frames, + is the car without the change. A table
+after the film says which cars are right. The wall to which a car is accelerated
+is called its floor.
 """
 # What is where?
 #     Sections 1 to 5    the demo: how a car moves and bounces, how a frame is drawn, and the main
@@ -43,7 +43,7 @@ import textwrap
 import time
 from contextlib import nullcontext
 from dataclasses import dataclass, field, fields, replace
-from itertools import pairwise, takewhile
+from itertools import pairwise
 from statistics import fmean, linear_regression
 from typing import Any, NamedTuple
 
@@ -57,8 +57,8 @@ from examples import CHANGED, CHANGED_FRAMES, EXAMPLES, OWN_SCENE, Example, Keys
 #     a_mps2   the acceleration of the car in m/s^2. It is the same all the time.
 #     dt_s     the time step in s: how much time passes for the car in a frame.
 #
-# The velocity changes during the frame. Euler's methods move the car as if it did not: at one
-# velocity through the whole frame. The method forward takes the velocity at the start of the
+# The velocity changes during the frame. But Euler's methods move the car at one velocity through
+# the whole frame. The method forward takes the velocity at the start of the
 # frame, and backward takes the velocity at its end. Both are of first order: half the dt makes
 # half the error after a given time. The method exact has no error, because a is constant.
 # For a constant a, backward is the same as the method that is called semi-implicit Euler.
@@ -81,43 +81,44 @@ def exact(x_m: float, v_mps: float, a_mps2: float, dt_s: float) -> State:
     """Kinematics: x + v dt + a dt^2/2, and v + a dt. No step changes the energy E."""
     return x_m + v_mps * dt_s + a_mps2 * dt_s * dt_s / 2, v_mps + a_mps2 * dt_s
 
-# If you write another motion, name it here. Then you can watch it in films, and the map has it.
-#     Its true car does not change: the o is always moved with the constant acceleration a.
+# If you write another motion, with the same arguments, name it here. Then you can watch it in
+# films, and the map has it. There are three things that it does not get:
+#     The o is not its true car. The o is always moved with a constant acceleration.
 #     The chart does not have it: it compares METHODS (section 6).
-#     The corrections rewind and replay refuse it: they need the motion exact.
+#     It does not go together with rewind and replay, which need the motion exact.
 MOTIONS = {"forward": forward, "backward": backward, "exact": exact}
 
 # ==== 2. Colliding ==============================================================================
 # Where is the car after it has met a wall, and how fast is it?
 #
-# A collision is found when a move has ended beyond a wall. Then a correction gives the car a new
-# velocity and, if it is a good one, a new place. (The lesson that this program follows calls it a
-# stickiness correction: with a bad one the car sticks in the wall.) It is the same for both walls,
-# because step() hands it a depth and a velocity that count from the wall, and into the wall:
+# A collision is found when a move has ended beyond a wall. Then a correction changes the velocity
+# and, if it is a good one, the place. (With a bad one the car sticks in the wall. So the lesson
+# that this program follows calls it a stickiness correction.) A correction serves both walls. For
+# this, depth, velocity and acceleration count as positive into the wall:
 #
 #     depth_m       how far the car is beyond the wall. In front of the wall, depth_m is negative.
 #     inward_mps    the velocity of the car. It is positive if the car moves into the wall.
 #     inward_mps2   the acceleration of the car. It is positive if it points into the wall.
 #     CR            the coefficient of restitution: the speed after a bounce / the speed before it.
 #
-# Here is one collision at the left wall. There, inward is to the left. The motion is exact,
+# Here is one collision at the right wall, where inward is to the right. The motion is exact,
 # inward_mps2 is 20, CR is 0.8, and a column is 1 cm. In one frame of 0.1 s the car moves from the
 # start to the 0, which is 8 cm beyond the wall. Then each correction puts the car where the * is.
-# E is the energy in J/kg: v^2/2 - a * depth, where v is inward_mps and a is inward_mps2.
+# E is the energy in J/kg, counted from the wall: v^2/2 - a * depth, with inward_mps as v.
 #
 #                                            depth_m   inward_mps   E
-#     start              |           *       -0.120       1.00     2.90
-#     the move   0       |                    0.080       3.00     2.90
-#     none       *       |                    0.080      -2.40     1.28
-#     surface    0       *                    0.000      -2.40     2.88
-#     rebound    0       |     *             -0.064      -2.40     4.16
-#     conserve   0       *                    0.000      -1.93     1.86
-#     rewind     0       |    *              -0.048      -1.33     1.86
+#     start      *           |               -0.120       1.00     2.90
+#     the move               |       0        0.080       3.00     2.90
+#     none                   |       *        0.080      -2.40     1.28
+#     surface                *       0        0.000      -2.40     2.88
+#     rebound          *     |       0       -0.064      -2.40     4.16
+#     conserve               *       0        0.000      -1.93     1.86
+#     rewind            *    |       0       -0.048      -1.33     1.86
 #
-# A bounce, at depth 0, keeps the part CR of the speed, so CR^2 of the energy: 0.64 * 2.90 is 1.86.
-# With surface the car is at least on the track. With conserve its energy is right, too. With rewind
-# the moment of the bounce is right, too. So of these five only rewind puts the car where a true car
-# is at the end of this frame.
+# What is right? At the wall E is v^2/2. A bounce multiplies v by CR, so E by CR^2: 0.64 * 2.90 is
+# 1.86. None leaves the car in the wall. Surface and rebound put it on the track, but give it too
+# much energy. Conserve gives it the right energy. Rewind bounces it at the right moment, too. So of
+# these five only rewind puts the car where a true car is at the end of this frame.
 #
 # The five corrections of this section take the same four arguments, and return a new depth_m and a
 # new inward_mps. So step() can call any of them.
@@ -141,31 +142,32 @@ def none(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> Co
 def surface(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> Contact:
     """Put the car on the wall, and reverse its velocity, times CR.
 
-    If the acceleration points into the wall, surface lifts the car against it. That should cost
-    speed, but surface does not slow the car. So with the exact motion, and a CR above 0, the car
-    has more energy than it should: in the drawn collision 2.88 J/kg instead of 1.86.
+    If the acceleration points into the wall, this lifts the car against the acceleration. A lift
+    should cost speed, but surface does not slow the car. So with the exact motion, and a CR above
+    0, the car has more energy than it should: in the drawn collision 2.88 J/kg instead of 1.86.
     """
     return 0.0, -CR * inward_mps
 
 def rebound(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> Contact:
     """Put the car in front of the wall, CR * depth away, and reverse its velocity, times CR.
 
-    Without an acceleration this is right for one bounce in a frame: while the move went on into the
-    wall, the true car went back, CR times as fast. If the acceleration points into the wall,
-    rebound leaves too much energy, as surface does. If CR * depth is longer than the track, the car
-    is thrown out at the other end (example 14).
+    Without an acceleration this is right for one bounce in a frame: in the time in which the move
+    went depth beyond the wall, the true car goes CR * depth back. If the acceleration points into
+    the wall, rebound leaves too much energy, and more than surface does. If CR * depth is longer
+    than the track, the car is thrown out at the other end (example 14).
     """
     return -CR * depth_m, -CR * inward_mps
 
 def conserve(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> Contact:
     """Put the car on the wall, as surface does, but with the speed that the energy allows.
 
-    With the exact motion the energy is right if a frame holds one bounce, and ends beyond the wall.
-    Only the moment is wrong: the car leaves the wall at the end of the frame, up to a frame late.
+    With the exact motion the energy is right if the car bounces once in the frame, and the move
+    ends beyond that wall. Only the moment is wrong: the car leaves the wall at the end of the
+    frame, so up to a frame late.
     """
     # Take the car back to the wall. E does not change, so its speed w there follows from
-    # w^2 = v^2 - 2 a depth. This may be negative by round-off, with the motion backward, or after a
-    # start beyond the wall. The bounce leaves the speed CR w.
+    # w^2 = v^2 - 2 a depth. This may be negative by round-off, after a start beyond the wall, or
+    # after a move with backward, which has lost energy. The bounce leaves the speed CR w.
     w_squared = max(0.0, inward_mps * inward_mps - 2 * inward_mps2 * depth_m)
     return 0.0, -CR * math.sqrt(w_squared)  # 1.93 m/s in the drawn collision
 
@@ -188,29 +190,32 @@ def arrival(d_m: float, u_mps: float, a_mps2: float) -> tuple[float, float]:
 def rewind(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> Contact:
     """Take the car back in time to the wall, let it bounce, and move it on to the frame's end.
 
-    With the exact motion this is right if a frame holds one bounce, and ends beyond the wall. So in
-    example 10, where CR is 1, the car comes back to its start each time. There are three faults:
-        Rewind cannot settle a second bounce. So a car that should lie still keeps a velocity. In
-        irregular frames it goes on to hop, in example 12 by some mm.
+    With the exact motion this is right if the car bounces once in the frame, and the move ends
+    beyond that wall. So in example 10, where CR is 1, the car comes back to its start each time.
+    There are three faults:
+        A car that should lie still bounces again within the frame. Rewind leaves this bounce to the
+        next frame, so the velocity is never 0. In irregular frames such a car may go on to hop: in
+        example 12 by some mm.
         The car may turn beyond the wall, and be back on the track when the frame ends. Then no
         collision is found: a missed event (example 18).
         In a frame in which the car should cross the whole track, it may be thrown out.
     """
     # How long ago did the car pass the wall, and how fast? Let time run backwards. Then the car
-    # moves out of the wall, at inward_mps. Its acceleration is the same in both directions of time.
-    # But it counts out of the wall now, so it is -inward_mps2.
-    late_s, met_mps = arrival(depth_m, inward_mps, -inward_mps2)  # 0.030 s, 2.41 m/s
+    # moves out of the wall, at inward_mps. The acceleration does not change with the direction of
+    # time. But out of the wall is positive now, so it is -inward_mps2. In the drawn collision the
+    # car passed the wall 0.030 s ago, at 2.41 m/s.
+    late_s, met_mps = arrival(depth_m, inward_mps, -inward_mps2)
     # Run it forwards again, from the wall, after the bounce, for the same time.
     new_depth_m, new_inward_mps = exact(0.0, -CR * met_mps, inward_mps2, late_s)
-    # If the car is in the wall again, there was a second bounce. Put the car on the wall, at this
-    # velocity, and leave the second bounce to the next frame. (In the wall the car is faster than
-    # it was on it. So this leaves a little too much energy.)
+    # If the car is in the wall again, there was a second bounce. Put the car on the wall, and leave
+    # the second bounce to the next frame. (It has become faster in the wall, and keeps this speed.
+    # So it has a little too much energy.)
     return min(new_depth_m, 0.0), new_inward_mps
 
 CORRECTIONS = {"none": none, "surface": surface, "rebound": rebound, "conserve": conserve,
                "rewind": rewind}
 
-# The sixth correction, replay, is in section 6. It settles a whole frame.
+# The sixth correction, replay, is in section 6. It does the move and all bounces of a frame.
 ALL_CORRECTIONS = [*CORRECTIONS, "replay"]
 EXACT_ONLY = ["rewind", "replay"]  # they need the exact motion
 
@@ -218,11 +223,11 @@ EXACT_ONLY = ["rewind", "replay"]  # they need the exact motion
 # How does the car get from one frame to the next?
 
 def a_number(default: float, meaning: str, least: float, largest: float) -> Any:
-    """A setting that is a number. The dataclass keeps what it may be, as metadata of its field."""
+    """A setting that is a number. The field keeps meaning and range for section 10, as metadata."""
     return field(default=default, metadata={"meaning": meaning, "range": (least, largest)})
 
 def a_choice(default: Any, meaning: str, *choices: Any) -> Any:
-    """A setting that is one of several words, or True or False. (Section 10 reads the metadata.)"""
+    """A setting that is one of several words, or True or False."""
     return field(default=default, metadata={"meaning": meaning, "choices": choices})
 
 @dataclass(frozen=True)  # frozen: nothing can change it. replace() makes a changed copy.
@@ -293,10 +298,10 @@ class Frame(NamedTuple):
     v_mps: float
     mark_m: float | None
 
-def next_frame(track: Track, last: Frame, dt_s: float) -> Frame:
-    """The frame after the last one."""
-    x_m, v_mps, mark_m = step(track, last.x_m, last.v_mps, dt_s)
-    return Frame(last.t_s + dt_s, dt_s, x_m, v_mps, mark_m)
+def next_frame(track: Track, frame: Frame, dt_s: float) -> Frame:
+    """The frame that follows this one, after dt_s."""
+    x_m, v_mps, mark_m = step(track, frame.x_m, frame.v_mps, dt_s)
+    return Frame(frame.t_s + dt_s, dt_s, x_m, v_mps, mark_m)
 
 class Car:
     """A car on a track. It keeps its frames, so that one can tell later what happened."""
@@ -312,9 +317,9 @@ class Car:
 # ==== 4. Drawing ================================================================================
 # How does a frame become a line of text, and why text?
 #
-# With text there is nothing between the physics and the eye. Take a place in m, count it from the
-# left edge of the picture, multiply it by m_to_px, and round it: this is a column of the line. And
-# each line is printed below the line before it. So the film is the graph of the motion.
+# With text there is nothing between the physics and the eye. A column of the line is a place in m,
+# counted from the left edge of the picture, times m_to_px, and rounded. Each line is printed below
+# the one before. So the film is the graph of the motion.
 
 @dataclass(frozen=True)
 class Scene:
@@ -323,7 +328,7 @@ class Scene:
     track: Track = Track()
     fps_target: float = a_number(30.0, "frames a second, 1/dt", 0.1, 1000)
     use_observed_dt: bool = a_choice(False, "dt is how long the frame lasted", False, True)
-    jitter: float = a_number(0.0, "frames vary by up to this part", 0, 0.9)
+    jitter: float = a_number(0.0, "frames are up to this part longer or shorter", 0, 0.9)
     auto_off: bool = a_choice(True, "stop when the car is at rest", False, True)
     m_to_px: float = a_number(55.0, "zoom in columns for each m", 0.0001, 1000)
     width_px: int = a_number(135, "width of the picture in columns", 10, 1000)
@@ -339,8 +344,8 @@ class Scene:
 def render_track(scene: Scene, places_m: dict[str, float], mark_m: float | None) -> str:
     """Draw a frame: one line of scene.width_px columns. places_m has the cars by their marks.
 
-    The line is painted from back to front: what is painted later covers what was there. The cars
-    are in this order, too. So the car itself, *, is the last of them, and nothing hides it.
+    The line is painted from back to front: what is painted later covers what was there. So the car
+    itself, *, must be the last of the cars, and nothing hides it.
     """
     track = scene.track
     marks = []
@@ -379,7 +384,7 @@ COLOURED_MARKS = str.maketrans({
 })
 
 class View(NamedTuple):
-    """How a film is printed. In a narrow terminal the scene of the view is smaller."""
+    """How a film is printed. In a narrow terminal this scene has a smaller picture."""
 
     scene: Scene
     has_details: bool
@@ -405,15 +410,15 @@ REST_FRAMES = 10  # at a low frame rate 0.3 s may be a single frame
 ROUND_OFF_S = 1e-9  # times are sums of many dt, so the last digits are not to be trusted
 
 class Rest:
-    """Watches a car, frame by frame, and knows since when it is at rest.
+    """Watches a car, frame by frame, and knows whether it is at rest, and since when.
 
-    At rest means: for 0.3 s and for ten frames the car was on the track, and low in each frame.
-        low:     It is at most 3 mm above its floor. In other scenes than the lesson's this is a
-                 650th of the height that the car can reach. If half a column of the film is less
-                 than that, it is half a column.
-        0.3 s:   If the acceleration is small, the time is longer: it is the time of a hop that is
-                 just low. So a car that only passes by is gone before the time is over.
-    Without an acceleration there is no floor. Then v must be 0 in each frame.
+    In most films the rule is: for 0.3 s and for ten frames the car has been on the track and low,
+    at most about 3 mm above its floor. (Its velocity does not count: a car may lie, and keep one.)
+        How low?    At most a 650th of the height that the car can reach, which is 3 mm on the whole
+                    of the lesson's track. And at most half a column of the film.
+        How long?   At least as long as a hop to this height lasts. If the acceleration is small,
+                    this is more than 0.3 s. So a car that only passes by is gone before.
+    Without an acceleration the car has no floor. Then its velocity must be 0.
     """
 
     def __init__(self, track: Track, column_m: float) -> None:
@@ -429,34 +434,34 @@ class Rest:
             # Half of the hop is a fall from its top: low = g (hop/2)^2/2.
             hop_s = 2 * math.sqrt(2 * self.low_m / g_mps2)
             self.needed_s = max(REST_S, hop_s)
-        self.began_s = 0.0  # when it began to lie
-        self.frames = 0  # for how many frames it has been lying
+        self.began_s = 0.0  # since when it is low
+        self.count = 0  # for how many frames it has been low
 
     def look(self, frame: Frame) -> bool:
-        """Look at the car in its next frame. Returns whether it is at rest now."""
+        """Count the next frame of the car. Returns whether it is at rest now."""
         if self.track.a_mps2 == 0:
             is_low = frame.v_mps == 0
         else:
             is_low = abs(frame.x_m - self.track.floor_m()) <= self.low_m
         if not is_low or not self.track.has_on_it(frame.x_m):
-            self.frames = 0
+            self.count = 0
             return False
-        if self.frames == 0:
+        if self.count == 0:
             self.began_s = frame.t_s
-        self.frames += 1
-        lay_s = frame.t_s - self.began_s
-        return self.frames >= REST_FRAMES and lay_s >= self.needed_s - ROUND_OFF_S
+        self.count += 1
+        low_for_s = frame.t_s - self.began_s
+        return self.count >= REST_FRAMES and low_for_s >= self.needed_s - ROUND_OFF_S
 
 def rest_began_s(track: Track, frames: list[Frame], column_m: float) -> float | None:
-    """Since when a car with these frames is at rest, or None if it is not."""
+    """The moment since which a car is at rest in the last of these frames, or None if it is not."""
     rest = Rest(track, column_m)
     is_at_rest = False
-    for frame in frames:
+    for frame in frames[1:]:  # frames[0] is the start
         is_at_rest = rest.look(frame)
     return rest.began_s if is_at_rest else None
 
 def planned_length(scene: Scene, frame: int) -> float:
-    """How long this frame should last, in s. With jitter, frames are irregular in a fixed way."""
+    """How long this frame should last, in s. With jitter, frames are irregular."""
     # Numbers that look random, but are the same each time: the multiples of 0.618 (the golden ratio
     # - 1) without their whole parts. They are spread evenly from 0 to 1.
     from_0_to_1 = (0.618 * frame) % 1
@@ -485,37 +490,30 @@ class Pace:
         self.shown_s = time.perf_counter() - planned_length(scene, 1)
         self.due_s = self.shown_s
 
-    def wait(self, frame: int, t_s: float) -> float | None:
-        """Wait until this frame is due. Returns how long it has lasted by the clock, in s.
+    def wait(self, frame: int, t_s: float) -> tuple[float, float]:
+        """Wait until this frame is due. Returns its dt_s, and the frame rate that d shows.
 
-        Returns None if the clock does not tell it: after a pause, which shows how far the film is,
-        and without keys (--fast), where it does not wait.
+        t_s is what a pause shows. Without keys (--fast) nothing waits, and all is as planned.
         """
+        dt_s = planned_dt(self.scene, frame)
         if self.keys is None:
-            return None
-        self.due_s += planned_length(self.scene, frame)
-        was_timed = self.keys.wait_for_frame(self.due_s, frame, t_s)
+            return dt_s, self.scene.fps_target
+        planned_s = planned_length(self.scene, frame)
+        self.due_s += planned_s
+        was_timed = self.keys.wait(self.due_s, frame, t_s)
         now_s = time.perf_counter()
         lasted_s = now_s - self.shown_s
         self.shown_s = now_s
-        # After a pause, or if the film is far behind its plan, the plan begins anew from now.
+        # After a pause, or if the film is far behind its plan, plan the next frames from now.
         # Otherwise the film would race to catch up.
         if not was_timed or now_s > self.due_s + STALL_S:
             self.due_s = now_s
-        return lasted_s if was_timed else None
-
-def dt_and_rate(scene: Scene, frame: int, lasted_s: float | None) -> tuple[float, float]:
-    """How much time passes for the car in this frame, and the frame rate that d shows.
-
-    lasted_s is how long the frame has lasted by the clock, or None if the clock does not tell.
-    """
-    dt_s = planned_dt(scene, frame)
-    if lasted_s is None:
-        return dt_s, scene.fps_target
-    # A frame with a stall counts as long as planned. Otherwise the car would leap.
-    if scene.use_observed_dt and lasted_s <= planned_length(scene, frame) + STALL_S:
-        dt_s = lasted_s
-    return dt_s, 1 / max(lasted_s, 1e-6)  # the clock may not have ticked in between
+        if not was_timed:
+            return dt_s, self.scene.fps_target
+        # After a stall keep the planned dt. With the observed one the car would leap.
+        if self.scene.use_observed_dt and lasted_s <= planned_s + STALL_S:
+            dt_s = lasted_s
+        return dt_s, 1 / max(lasted_s, 1e-6)  # the clock may not have ticked in between
 
 def run(cars: dict[str, Car], scene: Scene, view: View, max_frames: int,
         keys: Keys | None) -> None:
@@ -526,19 +524,16 @@ def run(cars: dict[str, Car], scene: Scene, view: View, max_frames: int,
     car = cars["*"]
     rest = Rest(car.track, scene.column_m())
     pace = Pace(scene, keys)
-    t_s = 0.0
     why = "that is the frame limit"
     for frame in range(1, max_frames + 1):
         # Wait until the frame is due. A key may end the film meanwhile.
-        lasted_s = pace.wait(frame, t_s)
+        dt_s, fps = pace.wait(frame, car.frames[-1].t_s)
         if keys is not None and keys.why_quit:
             why = keys.why_quit
             break
         # Move the cars, and settle their collisions.
-        dt_s, fps = dt_and_rate(scene, frame, lasted_s)
         for each in cars.values():
             each.move(dt_s)
-        t_s += dt_s
         # Draw the frame.
         print(view.line(cars, fps))
         # Is it over?
@@ -546,7 +541,8 @@ def run(cars: dict[str, Car], scene: Scene, view: View, max_frames: int,
         if scene.auto_off and is_at_rest:
             why = "the car is at rest"
             break
-    print(f"Stopped after {len(car.frames) - 1} frames, t = {t_s:.2f} s: {why}.", flush=True)
+    frames, t_s = len(car.frames) - 1, car.frames[-1].t_s
+    print(f"Stopped after {frames} frames, t = {t_s:.2f} s: {why}.", flush=True)
 
 # ==== 6. The truth ==============================================================================
 # What would the car really do? And which method should I take?
@@ -574,9 +570,9 @@ def next_bounce(h_m: float, rise_mps: float, g_mps2: float,
 
     h_m is the height of the ball, and rise_mps is its velocity, upwards.
     """
-    # To rise to the ceiling takes the energy g * (room - h). If a ball comes there at almost no
-    # speed, round-off would decide whether it meets the ceiling. So it must be able to rise higher,
-    # by GRAZE of the room.
+    # To rise to the ceiling takes the energy g * (room - h). If a ball only just reaches it,
+    # round-off would decide whether it does. So here it meets the ceiling only if it could rise
+    # higher, by GRAZE of the room.
     energy_to_meet_it = g_mps2 * (room_m - h_m + GRAZE * room_m)
     if rise_mps > 0 and rise_mps * rise_mps / 2 >= energy_to_meet_it:
         flight_s, speed_mps = arrival(room_m - h_m, rise_mps, -g_mps2)
@@ -591,7 +587,7 @@ def follow(h_m: float, rise_mps: float, g_mps2: float, room_m: float, CR: float,
     Returns its height, its velocity upwards, and whether it has bounced.
     """
     has_bounced = has_met_floor = False
-    since_floor_s = 0.0  # how long ago the ball met the floor, if it has
+    since_floor_s = 0.0  # the time since the last bounce on the floor
     while rise_mps != 0 or g_mps2 != 0:  # otherwise nothing moves the ball
         wall, flight_s, speed_mps = next_bounce(h_m, rise_mps, g_mps2, room_m)
         if flight_s > remaining_s:
@@ -606,8 +602,8 @@ def follow(h_m: float, rise_mps: float, g_mps2: float, room_m: float, CR: float,
         if rise_mps * rise_mps / 2 <= g_mps2 * GRAZE * room_m:
             return 0.0, 0.0, True  # it lies still, as it cannot rise by GRAZE of the room
         if CR == 1 and has_met_floor:
-            # The ball needed since_floor_s from floor to floor. At CR = 1 it needs as long each
-            # time. So leave out all whole periods. What remains is the remainder of a division.
+            # At CR = 1 the ball needs the same time from floor to floor again and again. So leave
+            # out all whole periods. What remains is the remainder of a division.
             remaining_s = remaining_s % since_floor_s
         has_met_floor = True
         since_floor_s = 0.0
@@ -619,8 +615,8 @@ def replay(track: Track, x_m: float, v_mps: float, dt_s: float) -> Moved:
 
     It takes and returns what step() does, and is right for a frame of any length.
     """
-    # A car that has not turned and is still on the track has met no wall. This quick way out is
-    # not needed, but most frames take it, and it is several times as fast.
+    # A car that has moved one way only, and is still on the track, has met no wall. This quick way
+    # out is not needed, but most frames take it, and it is several times as fast.
     free_m, free_mps = exact(x_m, v_mps, track.a_mps2, dt_s)
     has_turned = v_mps * free_mps < 0  # its velocity has changed its sign
     if track.left_edge_m <= free_m <= track.right_edge_m and not has_turned:
@@ -637,14 +633,14 @@ def replay(track: Track, x_m: float, v_mps: float, dt_s: float) -> Moved:
     return x_m, up * rise_mps, free_m
 
 def truth_of(track: Track) -> Track:
-    """The same track, solved exactly. A start beyond a wall is moved to the wall."""
+    """The track of the true car. A start beyond a wall is moved to the wall."""
     return replace(track, motion="exact", correction="replay", x_m=track.to_track(track.x_m))
 
 # Which method should I take? A method is a motion and a correction. Of the fourteen possible ones,
 # example 21 and the chart compare five.
 #
 #     method                 energy       error of the place          take it for
-#     a  backward + rebound  up and down  order 1                     what may be wrong
+#     a  backward + rebound  up and down  order 1                     seeing errors
 #     b  exact + rebound     too much     order 1                     cars without an acceleration
 #     c  exact + conserve    right        order 1: bounces come late  balls in a game
 #     d  exact + rewind      right        none                        short frames
@@ -652,8 +648,8 @@ def truth_of(track: Track) -> Track:
 #
 # The table is for a car that bounces on its floor, at most once in a frame. Order 1 means that
 # frames of half the length make half the error.
-#     At CR < 1, frames shortly before the Zeno point hold several bounces. There d gets a little
-#     too much energy. This makes an error of order 2: half the length makes a quarter of it.
+#     Exception: at CR < 1 the last frames before the Zeno point have several bounces. There d gets
+#     a little too much energy. This makes an error of order 2: a quarter, at half the length.
 #     Without an acceleration a, b, d and e have no error, and c has one of order 1.
 #
 # Methods a to d need short frames, because they look only at the end of a frame, and settle one
@@ -687,8 +683,10 @@ LEGEND = {letter: f"{letter}: {method['motion']} + {method['correction']}"
 # ==== 7. The chart: speed against accuracy ======================================================
 # What does each method cost, and how wrong is it?
 
-SPAN_S = 20  # of simulated time: seven bounces in example 10, so errors have time to grow
-RUNS = 10  # of each method: with fewer, the largest error would depend more on luck
+SPAN_S = 20  # of simulated time: eight bounces in example 10, so errors have time to grow
+RUNS = 10  # of each method: with fewer, the largest error would be less reliable
+
+# These three are for all that is printed from here on.
 
 PYTHON = os.path.basename(sys.executable).removesuffix(".exe")  # what runs this: python3, say
 
@@ -703,39 +701,41 @@ def track_text(track: Track) -> str:
             f"CR={track.CR:.10g}, walls at {track.left_edge_m:.10g} and "
             f"{track.right_edge_m:.10g} m")
 
-def simulate(track: Track, start: Frame, lengths_s: list[float]) -> list[Frame]:
-    """The start, and a frame of each of these lengths."""
-    frame = start
+def simulate(track: Track, lengths_s: list[float]) -> list[Frame]:
+    """The start of the car, and a frame of each of these lengths."""
+    frame = Car(track).frames[0]
     frames = [frame]
     for dt_s in lengths_s:
         frame = next_frame(track, frame, dt_s)
         frames.append(frame)
     return frames
 
-def beside(other: list[Frame], track: Track, start: Frame) -> list[Frame]:
-    """A car on this track, in frames as long as the other's."""
-    return simulate(track, start, [frame.dt_s for frame in other[1:]])
+def beside(frames: list[Frame], track: Track) -> list[Frame]:
+    """A car on this track that starts as those frames do, and makes frames of the same lengths."""
+    start = frames[0]
+    track = replace(track, x_m=track.to_track(start.x_m), v_mps=start.v_mps)
+    return simulate(track, [frame.dt_s for frame in frames[1:]])
 
 def furthest_m(frames: list[Frame], true_frames: list[Frame]) -> float:
     """How far a car was at most from its true car."""
-    return max([abs(frame.x_m - true.x_m)
-                for frame, true in zip(frames, true_frames, strict=True)])
+    pairs = zip(frames, true_frames, strict=True)
+    return max(abs(frame.x_m - true.x_m) for frame, true in pairs)
 
 def ten_true_runs(track: Track, fps: int) -> list[list[Frame]]:
     """The frames of the true car in ten runs of SPAN_S. All methods are compared with them.
 
-    It is luck at which moment of a frame the car meets a wall. So the ten runs begin at ten moments
-    of the same motion. Run 0 begins at the start. Each other run begins a part of a frame later,
-    where the true car is then.
+    An error depends on the moment of a frame at which the car meets a wall. So the runs begin at
+    ten moments of the same motion. Run 0 begins at the start. Each other run begins a part of a
+    frame later, where the true car is then.
     """
     truth = truth_of(track)
     runs = []
     for run_number in range(RUNS):
-        # The parts are elevenths. With tenths, a frame might begin at a bounce in round numbers.
+        # The parts are elevenths. With tenths, round settings may put a bounce at a frame's end.
         later_s = run_number / (RUNS + 1) / fps
         x_m, v_mps, _ = step(truth, truth.x_m, truth.v_mps, later_s)
-        start = Frame(0.0, 0.0, x_m, v_mps, None)
-        runs.append(simulate(truth, start, [1 / fps] * (SPAN_S * fps)))
+        later = replace(truth, x_m=x_m, v_mps=v_mps)
+        runs.append(simulate(later, [1 / fps] * (SPAN_S * fps)))
     return runs
 
 def costs_us(tracks: dict[str, Track], fps: int) -> dict[str, float]:
@@ -773,7 +773,7 @@ def measured(track: Track, fps: int) -> list[Point]:
         error_m = 0.0
         if letter != THE_TRUTH:
             for true_frames in true_runs:
-                frames = beside(true_frames, method_track, true_frames[0])
+                frames = beside(true_frames, method_track)
                 error_m = max(error_m, furthest_m(frames, true_frames))
         points.append(Point(letter, fps, error_m, costs[letter]))
     return points
@@ -811,7 +811,7 @@ def row_text(points: list[Point]) -> str:
     return row
 
 DECADES = ["<=1 um", "10 um", "0.1 mm", "1 mm", "1 cm", "0.1 m", "1 m", ">=10 m"]
-LEAST_ERROR_M = 1e-6  # a decade is from one power of ten to the next, and here the first begins
+LEAST_ERROR_M = 1e-6  # the left edge. A decade is from one power of ten to the next.
 COLUMNS_A_DECADE, ROWS_A_DECADE = 8, 4
 LAST_COLUMN = COLUMNS_A_DECADE * (len(DECADES) - 1)
 
@@ -826,10 +826,10 @@ def print_picture(points: list[Point], column_m: float) -> None:
     for point in points:
         row = round(ROWS_A_DECADE * math.log10(point.cost_us))
         place = row, error_column(point.error_m)
-        if letters.get(place, point.letter) == point.letter:
-            letters[place] = point.letter
-        else:
+        if place in letters and letters[place] != point.letter:
             letters[place] = "+"  # another letter stands there already
+        else:
+            letters[place] = point.letter
     rows = [row for row, _ in letters]
     limit = error_column(column_m)
     print("a column of the film |".rjust(10 + limit + 1))
@@ -842,18 +842,17 @@ def print_picture(points: list[Point], column_m: float) -> None:
         print(line.rstrip())
 
 def print_answers(points: list[Point], column_m: float) -> None:
-    """Print from which rate on a method is good enough, and what it is like at a game's rate."""
+    """Print from which rate on a method is good enough, and its cost and error in a game."""
     rows = []
     for in_game in [point for point in points if point.fps == GAME_FPS]:
         letter = in_game.letter
-        # From the highest rate down, as long as the error is small enough.
-        from_above = reversed(of_method(letter, points))
-        good = list(takewhile(lambda point: point.error_m <= column_m, from_above))
         cheapest_us = math.inf
         within = "at no rate"
-        if good:
-            cheapest_us = good[-1].cost_us
-            within = f"from {good[-1].fps:4} FPS on: {cheapest_us:6.1f} us"
+        for point in reversed(of_method(letter, points)):  # from the highest rate down
+            if point.error_m > column_m:
+                break
+            cheapest_us = point.cost_us
+            within = f"from {point.fps:4} FPS on: {cheapest_us:6.1f} us"
         off = f"up to {in_game.error_m:.2g} m off"
         if letter == THE_TRUTH:
             off = "right by definition"
@@ -864,15 +863,19 @@ def print_answers(points: list[Point], column_m: float) -> None:
         print(text)
 
 def chart(scene: Scene, words: str) -> None:
-    """Measure, print table and picture, and answer the question. words asked for the scene."""
+    """Measure, print table and picture, and answer the question.
+
+    words are the number and the settings of the scene, as they were typed.
+    """
     column_m = scene.column_m()
     say(f"Speed against accuracy. Scene {words}: {track_text(scene.track)}")
-    say("Which method is the cheapest that stays within a column of the film? Each runs ten times "
-        "for 20 simulated seconds, from ten moments of the motion. Error: the largest distance "
-        "from the true car. Method e has none, because the true car is moved by it. Cost: the time "
-        "that a simulated second takes, in us (microseconds). Order, from the errors below a tenth "
-        "of the track: 1 if half the dt makes half the error, 2 if it makes a quarter, none if "
-        "there is only round-off, and ? if there are too few.")
+    say("Which method is the cheapest that stays within a column of the film? Each runs "
+        f"{RUNS} times for {SPAN_S} simulated seconds, from {RUNS} moments of the motion. Error: "
+        "the largest distance from the true car. (Method e has none, because the true car is moved "
+        "by it.) Cost: the time that a simulated second takes, in us (microseconds). Order 1: half "
+        "the dt makes half the error. Order 2: it makes a quarter. (The order is taken from the "
+        "errors below a tenth of the track. It is none if they are all round-off, and ? if there "
+        "are fewer than three.)")
     say(", ".join(LEGEND.values()))
     print()
     print(" " * 4 + "".join([letter.rjust(11) + " " * 4 for letter in METHODS]).rstrip())
@@ -890,25 +893,26 @@ def chart(scene: Scene, words: str) -> None:
     print()
     print_picture(points, column_m)
     say("Error to the right, cost downwards: the best are in the upper left. + is where letters "
-        f"meet. The answer: within a column ({column_m:.2g} m) in all ten runs, at this rate and "
-        "at each higher one of the table:")
+        f"meet. The answer: within a column ({column_m:.2g} m) in all runs, at this rate and at "
+        "each higher one of the table:")
     print_answers(points, column_m)
-    say("In a game c may still be the choice. It need not know all walls ahead, as e must. On a "
-        "floor it comes to rest if CR is below 1. And it is never thrown out.")
+    say("In a game c may do, although its bounces come up to a frame late. It comes to rest on a "
+        "floor if CR is below 1, and it is never thrown out. Method e must know all walls before "
+        "it moves, and c need not.")
     print(f"Next: {PYTHON} airtrack.py stability {words}")
 
 # ==== 8. The map: where methods fail ============================================================
 # Which method fails at which frame rate, and how? The table after a film judges by the same rules.
 
 MAP_FPS = [1, 2, 5, 10, 30, 60, 120, 240, 480]
-LATE_S = 15  # here begin the last 5 s of a run: the last quarter of it
+LATE_S = 15  # here the last 5 s of a run begin
 VERDICTS = {  # a letter, its name, and what it means
     "X": ("gets out", "further beyond a wall than the track is long"),
     "S": ("is stuck", "beyond the same wall all through the last 5 s"),
-    "H": ("hops on", "over a column off, at the end not at rest, but the true car is"),
-    "G": ("has too much energy", "over the last 5 s by more than 1 % of the start energy"),
-    "L": ("has too little energy", "over the last 5 s by more than 1 % of the start energy"),
-    "P": ("was off, with the right energy", "over a column off at some time"),
+    "H": ("hops on", "not at rest at the end, and the true car lies still for the last 5 s"),
+    "G": ("has too much energy", "on average in the last 5 s by over 1 % of the start's"),
+    "L": ("has too little energy", "on average in the last 5 s by over 1 % of the start's"),
+    "P": ("was off, with the right energy", "over a column off (energy: in the last 5 s)"),
     "-": ("is right", "never over a column of the film off"),
 }
 FROM_WORST_TO_BEST = "XSHWGLP-"  # W is for several runs: see worst_of()
@@ -922,11 +926,11 @@ def verdict(track: Track, frames: list[Frame], true_frames: list[Frame], column_
     late = [frame for frame in frames if frame.t_s >= LATE_S - ROUND_OFF_S]
     late_m = [frame.x_m for frame in late]
     is_beyond = min(late_m) > right_m or max(late_m) < left_m
-    if is_beyond and len(late) >= 10:  # fewer frames would not show that it stays there
+    if is_beyond and len(late) >= 10:  # fewer frames do not show that it stays there
         return "S"
     if furthest_m(frames, true_frames) <= column_m:
         return "-"
-    # H: a true car that lies still has no energy: replay puts it on its floor, so it is exactly 0.
+    # H: if the true car lies still, replay has put it on its floor. Then its energy is exactly 0.
     true_energies = [track.energy(true.x_m, true.v_mps) for true in true_frames[-len(late):]]
     if max(true_energies) == 0 and rest_began_s(track, frames, column_m) is None:
         return "H"
@@ -950,14 +954,15 @@ def worst_of(letters: list[str]) -> str:
     return worst
 
 def stability(scene: Scene, words: str) -> None:
-    """Print the map: a row for each method, a column for each rate. words asked for the scene."""
+    """Print the map: a row for each method, a column for each rate. words are as in chart()."""
     column_m = scene.column_m()
     say(f"Stability. Scene {words}: {track_text(scene.track)}")
-    say("Which methods are right, and from which frame rate on? Each runs ten times for 20 "
-        "simulated seconds, from ten moments of the motion. The letter is that of the worst run, "
-        "and small if other runs are better. The key begins with the worst. (W comes after H: some "
-        "runs have a G, others an L.) Only cars that were over a column off can have H, G, L or P. "
-        "Example 20 says why hops get too much energy, and example 19 why they get too little.")
+    say(f"Which methods are right, and from which frame rate on? Each runs {RUNS} times for "
+        f"{SPAN_S} simulated seconds, from {RUNS} moments of the motion. A capital letter: all "
+        "runs have it. A small letter: the worst of them has it. The key goes from the worst to "
+        "the best, and W comes after H. A car is only H, G, L or P if it was over a column off at "
+        "some time. Example 20 says why hops get too much energy, and example 19 why they get too "
+        "little.")
     print()
     print(" " * 20 + "".join([str(fps).rjust(6) for fps in MAP_FPS]) + " FPS")
     true_runs = {fps: ten_true_runs(scene.track, fps) for fps in MAP_FPS}
@@ -970,24 +975,26 @@ def stability(scene: Scene, words: str) -> None:
             for fps in MAP_FPS:
                 letters = []
                 for true_frames in true_runs[fps]:
-                    frames = beside(true_frames, track, true_frames[0])
+                    frames = beside(true_frames, track)
                     letters.append(verdict(track, frames, true_frames, column_m))
                 row += worst_of(letters).rjust(6)
             print(row, flush=True)
     for letter, (name, meaning) in VERDICTS.items():
         print(f"{letter}  {name}: {meaning}")
-    print(f"Next: {PYTHON} airtrack.py 20")
+    print(f"W  some runs have a G, others an L. Next: {PYTHON} airtrack.py 20")
 
-# Why do some cars hop for ever, and why do others lie still too soon? Think of hops on the floor,
-# in frames of one length, with surface or rebound. A hop begins upwards at a speed u. It ends where
-# a collision is found: below the floor, downwards, at a speed w. The next hop begins at CR * w.
-#     A true car would come back at the speed u. Here it comes back at  w = u + k * g * dt.
-#     With exact + surface, in hops of two frames or more, k is above 0 and at most 1. So each hop
-#     gets speed from nothing. At CR = 1 the hops get higher and higher (G). Below CR = 1 a bounce
-#     takes (1 - CR) * w. A slow car may get as much back in each hop: then it hops for ever (H).
-#     With backward + surface, in such hops, k is above -1 and at most 0. So hops lose speed, and
-#     the car may come to rest even at CR = 1 (L).
-# The page .github/law.md proves this, has the other methods, and foretells a film on paper.
+# Why do some cars hop for ever, and why do others lie still too soon? Let a car hop on its floor,
+# in frames of one length, with exact + surface. A hop begins on the floor, upwards, at a speed u.
+# After n frames the velocity is u - n g dt, and the height is n dt (u - n g dt/2). This is below 0
+# as soon as n is above s = 2 u/(g dt). There the hop ends, downwards, at w = n g dt - u. So
+#         w = u + k g dt,        with k = n - s, which is above 0 and at most 1.
+# A true car would come back at u. This one comes back faster: it gets speed from nothing. At CR = 1
+# it hops higher and higher (G). Below CR = 1 a bounce takes (1 - CR) w. If the car is slow, a hop
+# gives as much, and the car hops for ever (H). Rebound gives even more.
+#     With backward + surface each frame ends lower, and k is above -1 and at most 0, in hops of two
+#     frames or more. So if k is not 0, a hop loses speed, and the hops get as short as one frame:
+#     the car lies on its floor, even at CR = 1 (L).
+# The page .github/law.md has all of this, with proofs, and foretells a film on paper.
 
 # ==== 9. Before and after a film ================================================================
 # What is said before a film, and what after it?
@@ -998,8 +1005,9 @@ class Film(NamedTuple):
     number: int  # of the example
     typed: list[str]  # the settings that were typed, as NAME=VALUE
     scene: Scene
-    unchanged: Scene  # the example as it is
-    texts: Example  # with what is said: it is CHANGED or CHANGED_FRAMES if the example is changed
+    texts: Example  # what is said before and after it
+    unchanged: Scene | None  # the example without the changes, if there are any
+    has_plus: bool  # whether the car without the changes is drawn, as a +
     has_details: bool
     is_fast: bool
     max_frames: int
@@ -1049,28 +1057,20 @@ def fitted(scene: Scene, has_details: bool) -> Scene:
     m_to_px = scene.m_to_px * (columns - 1) / (scene.width_px - 1)
     return replace(scene, width_px=columns, m_to_px=m_to_px)
 
-def one_digit(number: float) -> float:
-    """The number with one significant digit, as it is printed: then what is under it is so."""
-    return float(f"{number:.1g}")
-
 def energies_text(car: Car) -> str:
     """The first, the least, the most and the last energy, with up to four significant digits."""
     energies = [car.track.energy(frame.x_m, frame.v_mps) for frame in car.frames]
-    little = one_digit(energies[0] / 5000)
     text = ""
     for energy in (energies[0], min(energies), max(energies), energies[-1]):
-        if 0 < energy < little:
-            text += f"<{little:.1g}".rjust(10)
-        else:
-            # Rounded once to nine digits, so that round-off does not decide the fourth.
-            rounded = float(f"{energy:.9g}")
-            text += f"{rounded:.4g}".rjust(10)
+        # Rounded to nine digits first. Otherwise round-off may decide the fourth.
+        rounded = float(f"{energy:.9g}")
+        text += f"{rounded:.4g}".rjust(10)
     return text
 
 def hops_text(car: Car) -> str:
     """How many frames its hops have, from bounce to bounce. Of many, the first four and last two.
 
-    A bounce in each frame is no hop: so it is if the car lies or is stuck.
+    A hop has two frames or more: a car that lies or is stuck meets its wall in each frame.
     """
     bounces = [number for number, frame in enumerate(car.frames) if frame.mark_m is not None]
     hops = [str(after - before) for before, after in pairwise(bounces) if after - before > 1]
@@ -1089,68 +1089,67 @@ def end_text(car: Car, column_m: float) -> str:
         return "still moves"
     return "is beyond a wall"  # in all of its last ten frames, not only after a bounce
 
-def with_true_frames(car: Car, scene: Scene) -> tuple[list[Frame], list[Frame]]:
-    """The frames of a car and those of its true car, for SPAN_S or, if it is longer, for the film.
+def judged(car: Car, scene: Scene) -> tuple[str, str]:
+    """How far the car was from its true car in the film, and the verdict on the first SPAN_S.
 
-    To a shorter film it adds planned frames.
+    If the film was shorter than that, planned frames are added for the verdict.
     """
     frames = list(car.frames)
     while frames[-1].t_s < SPAN_S - ROUND_OFF_S:
         frames.append(next_frame(car.track, frames[-1], planned_dt(scene, len(frames))))
-    truth = Car(truth_of(car.track))
-    return frames, beside(frames, truth.track, truth.frames[0])
+    true_frames = beside(frames, truth_of(car.track))
+    shown = len(car.frames)
+    off_m = furthest_m(frames[:shown], true_frames[:shown])
+    little_m = float(f"{car.track.length_m() / 2000:.1g}")  # 1 mm on the lesson's track
+    off = f"under {little_m:g} m" if off_m < little_m else f"{off_m:.4g} m"
+    # Up to the frame in which the time is over.
+    count = 1 + sum(frame.t_s < SPAN_S - ROUND_OFF_S for frame in frames)
+    letter = verdict(car.track, frames[:count], true_frames[:count], scene.column_m())
+    return off, letter
 
-def film_verdict(track: Track, frames: list[Frame], true_frames: list[Frame],
-                 column_m: float) -> str:
-    """The verdict on the first SPAN_S."""
-    before = list(takewhile(lambda frame: frame.t_s < SPAN_S - ROUND_OFF_S, frames))
-    count = len(before) + 1  # with the frame in which the time is over
-    return verdict(track, frames[:count], true_frames[:count], column_m)
-
-def off_text(frames: list[Frame], true_frames: list[Frame], track_m: float) -> str:
-    """How far the car was at most from its true car."""
-    off_m = furthest_m(frames, true_frames)
-    little_m = one_digit(track_m / 2000)  # about 1 mm on the lesson's track
-    if off_m < little_m:
-        return f"under {little_m:g} m"
-    return f"{off_m:.4g} m"
+def answer_text(letters: dict[str, str], is_longer: bool, column_m: float) -> str:
+    """Whether the * is right, and what the + is. letters has their verdicts."""
+    if "*" not in letters:
+        text = "Is the * right? By definition: it is the true car."
+    else:
+        name, meaning = VERDICTS[letters["*"]]
+        yes_or_no = "Yes" if letters["*"] == "-" else "No"
+        when = "In the first" if is_longer else "Computed on to"
+        text = (f"Is the * right? {yes_or_no}. {when} {SPAN_S} s it {name}: {meaning}. (A column "
+                f"is 1/m_to_px, {column_m:.2g} m.)")
+    if "+" in letters:
+        name, _ = VERDICTS[letters["+"]]
+        text += f" Without your change it {name}."
+    return text
 
 def tell_cars(cars: dict[str, Car], scene: Scene) -> None:
-    """Print a table of the cars, what became of them, and the verdict on the *."""
+    """Print a table of the cars, what became of them, and whether the * is right."""
     column_m = scene.column_m()
-    rows = []
-    ends = []
-    sentence = "The * is moved as the true car is, so it is right by definition."
+    letters = {}  # the verdicts, by the marks of the cars. The true car has none.
+    rows, ends = [], []
     for mark, car in reversed(cars.items()):
-        track = car.track
         off = "the truth"
         end = f"{mark} {end_text(car, column_m)}; {hops_text(car)}"
-        if track != truth_of(track):
-            frames, true_frames = with_true_frames(car, scene)
-            shown = len(car.frames)
-            off = off_text(frames[:shown], true_frames[:shown], track.length_m())
-            name, meaning = VERDICTS[film_verdict(track, frames, true_frames, column_m)]
+        if car.track != truth_of(car.track):
+            off, letters[mark] = judged(car, scene)
+            name, _ = VERDICTS[letters[mark]]
             end += f"; {name}"
-            if mark == "*":
-                when = "Computed on to" if shown < len(frames) else "In the first"
-                sentence = f"{when} {SPAN_S} s, the * {name}: {meaning}."
-        rows.append(f"{mark} {method_text(track):20}{off:>15}{energies_text(car)}")
+        rows.append(f"{mark} {method_text(car.track):20}{off:>15}{energies_text(car)}")
         ends.append(end)
     print()
     print("                        furthest from    energy in J/kg (0: lies at its floor)")
     print("                       its own truth     first     least      most      last")
-    for row in rows:
-        print(row)
-    print("At the end of the film; the length of each hop in frames; the verdict:")
-    for end in ends:
-        print(end)
-    say(f"{sentence} A column is 1/m_to_px = {column_m:.2g} m.")
+    print(*rows, sep="\n")
+    print(f"At the end of the film; each hop in frames; verdict on the first {SPAN_S} s:")
+    print(*ends, sep="\n")
+    is_longer = cars["*"].frames[-1].t_s > SPAN_S - ROUND_OFF_S
+    say(answer_text(letters, is_longer, column_m))
 
 def tell_unchanged(scene: Scene) -> None:
-    """Say the verdict on the example as it is, in its own frames."""
-    frames, true_frames = with_true_frames(Car(scene.track), scene)
-    name, _ = VERDICTS[film_verdict(scene.track, frames, true_frames, scene.column_m())]
-    say(f"Without your change the * {name}.")
+    """Say the verdict on the example without the changes, in its own frames."""
+    _, letter = judged(Car(scene.track), scene)
+    name, _ = VERDICTS[letter]
+    say(f"Without your change it {name}.")
 
 def film(wanted: Film) -> None:
     """Say what to look for, leave time to guess, show the film, and say what was to be seen."""
@@ -1164,7 +1163,7 @@ def film(wanted: Film) -> None:
     if drawn.width_px < scene.width_px:
         say(f"The picture is drawn {drawn.width_px} columns wide, because the terminal is narrow.")
     view = View(drawn, wanted.has_details, has_colours() and not wanted.is_fast)
-    plus = wanted.unchanged.track if texts is CHANGED else None
+    plus = wanted.unchanged.track if wanted.unchanged and wanted.has_plus else None
     cars = cars_of(scene, plus)
     taking = nullcontext() if wanted.is_fast else taken_keys()
     with taking as keys:
@@ -1179,7 +1178,7 @@ def film(wanted: Film) -> None:
     if len(cars["*"].frames) == 1:
         return  # it was ended before it began
     tell_cars(cars, scene)
-    if texts is CHANGED_FRAMES:
+    if wanted.unchanged and not wanted.has_plus:
         tell_unchanged(wanted.unchanged)
     if not wanted.is_fast:
         say_after(wanted)
@@ -1372,17 +1371,18 @@ def film_of(options: argparse.Namespace) -> Film:
     as_it_is = {name: each.default for name, each in SETTINGS.items()} | example.settings
     changed = [name for name, value in options.changes.items() if value != as_it_is[name]]
     settings = example.settings | options.changes
-    texts = example
-    if example is not OWN_SCENE:
-        if any(name in OF_THE_FRAMES for name in changed):
-            texts = CHANGED_FRAMES
-        elif any(name in OF_THE_TRACK for name in changed):
-            texts = CHANGED
-    if texts is not example:  # nobody knows what happens there, so the film shows its true car
+    texts, unchanged = example, None
+    changes_frames = any(name in OF_THE_FRAMES for name in changed)
+    changes_car = any(name in OF_THE_TRACK for name in changed)
+    if example is not OWN_SCENE and (changes_car or changes_frames):
+        # Nobody knows what happens there. So the film shows the true car.
         settings = {"show_exact_mark": True} | settings
+        texts = CHANGED_FRAMES if changes_frames else CHANGED
+        unchanged = scene_of(example.settings)
+    has_plus = unchanged is not None and not changes_frames  # a + would need frames of its own
     max_frames = FRAMES if options.frames is None else options.frames
-    return Film(options.number, options.typed, scene_of(settings), scene_of(example.settings),
-                texts, options.details or example.has_details, options.fast, max_frames)
+    return Film(options.number, options.typed, scene_of(settings), texts, unchanged, has_plus,
+                options.details or example.has_details, options.fast, max_frames)
 
 def compared_scene(options: argparse.Namespace) -> Scene:
     """The scene of a chart or a map. Raises Refused for what these do not take."""

@@ -271,12 +271,12 @@ EXAMPLES = {
 # These stand for a changed example and for a scene of one's own. Nobody knows what is to be seen
 # there, so the film's own table answers.
 CHANGED = Example("changed", {},
-    "An o is the true car of the changed scene. A + is the car of the example as it is. If you do "
+    "An o is the true car of the changed scene. A + is the car without your change. If you do "
     "not see them, they are under the *. (< and > mean: the * is out of the picture.) What does "
-    "your change do to the *? Is the * right, so is it where the o is?", "")
+    "your change do to the *? Is the * right: is it always on the o?", "")
 CHANGED_FRAMES = Example("with other frames", {},
     "An o is the true car. If you do not see it, it is under the *. What does your change do to "
-    "the *? Is the * right, so is it where the o is?", "")
+    "the *? Is the * right: is it always on the o?", "")
 OWN_SCENE = Example(f"Your own scene (the examples are 0 to {max(EXAMPLES)})", {
     "show_exact_mark": True},
     "The * is your car, and the o is the true car. Where you see no o, it is under the *. Does the "
@@ -502,8 +502,9 @@ class Keys:
         self.why_quit = ""  # why the film is to end, or nothing
         self.is_paused = False
         self.steps = 0  # frames to show although the film is paused
-        self.due_s = 0.0  # when the wait is over
         self.reading_s = READING_S
+        if not HAS_TERMINAL and window.why_shut:
+            self.reading_s = READING_WITHOUT_KEYS_S
 
     def press(self, key: str) -> None:
         """Act on a key."""
@@ -511,7 +512,6 @@ class Keys:
             self.has_begun = True
             self.has_begun_by_ctrl_c = key == CTRL_C
             self.is_paused = False
-            self.due_s = 0.0
         elif key in WHY_QUIT:
             self.why_quit = WHY_QUIT[key]
         elif key in ("p", CTRL_S):
@@ -530,17 +530,22 @@ class Keys:
         for key in [*signals, *terminal_keys(), *self.window.keys()]:
             self.press(key.lower())
 
-    def wait(self, due_s: float) -> bool:
-        """Wait for a moment of time.perf_counter(). Returns False if a key ended the wait."""
+    def wait(self, due_s: float, frame: int, t_s: float) -> bool:
+        """Wait until this frame is due or, in a pause, for a key. Returns False after a key.
+
+        due_s is a moment of time.perf_counter(). t_s is how much time has passed in the film.
+        """
         sys.stdout.flush()
-        self.due_s = due_s
         self.look()
         while not self.is_paused and not self.why_quit:
-            left_s = self.due_s - time.perf_counter()
+            left_s = due_s - time.perf_counter()
             if left_s <= 0:
                 return True
             time.sleep(min(left_s, LOOK_S))
             self.look()
+        self.hold(f"paused after frame {frame - 1}, t = {t_s:.2f} s: p resumes, s steps, x quits")
+        if self.steps > 0:
+            self.steps -= 1
         return False
 
     def is_held(self) -> bool:
@@ -560,17 +565,6 @@ class Keys:
         finally:
             print_for_now(" " * len(text))
 
-    def wait_for_frame(self, due_s: float, frame: int, t_s: float) -> bool:
-        """Wait until this frame is due or, in a pause, for a key. Returns whether it was no pause.
-
-        t_s is how much time has passed in the film.
-        """
-        was_timed = self.wait(due_s)
-        self.hold(f"paused after frame {frame - 1}, t = {t_s:.2f} s: p resumes, s steps, x quits")
-        if self.steps > 0:
-            self.steps -= 1
-        return was_timed
-
     def texts_before(self, question: str) -> list[str]:
         """What to say before the film: where the keys are, the question, when the film begins."""
         places = []
@@ -578,14 +572,12 @@ class Keys:
             places.append("here")
         if not self.window.why_shut:
             places.append("in the little window")
+        where = "No keys here: Ctrl-C ends the film."
+        when = f"It begins in {self.reading_s:g} s, or now with Ctrl-C."
         if places:
             where = f"Keys {' and '.join(places)}: p pauses the film, s steps, x ends it."
-            when = f"It begins in {READING_S:g} s, or now with Enter or Ctrl-C. p holds the text."
-            self.reading_s = READING_S
-        else:
-            where = "No keys here: Ctrl-C ends the film."
-            when = f"It begins in {READING_WITHOUT_KEYS_S:g} s, or now with Ctrl-C."
-            self.reading_s = READING_WITHOUT_KEYS_S
+            when = (f"It begins in {self.reading_s:g} s, or now with Enter or Ctrl-C. "
+                    "p holds the text.")
         if self.window.why_shut:
             where += f" (No window: {self.window.why_shut}.)"
         return [where, question, when]
@@ -593,11 +585,15 @@ class Keys:
     def leave_time(self) -> None:
         """Leave time to read these texts. Enter and s cut it short."""
         ends_s = time.perf_counter() + self.reading_s
+        self.look()
         while not self.has_begun and not self.why_quit:
-            if self.wait(ends_s):
+            if self.is_paused:
+                self.hold("the text is held: p lets go, Enter begins the film, x quits")
+            elif time.perf_counter() >= ends_s:
                 self.has_begun = True
             else:
-                self.hold("the text is held: p lets go, Enter begins the film, x quits")
+                time.sleep(LOOK_S)
+                self.look()
         if self.has_begun_by_ctrl_c:
             print(DIAMOND)
 

@@ -20,6 +20,8 @@ def told(table: list[str]) -> dict[str, list[str]]:
     """What the table has for each car: its row, and its hops and its end."""
     lines: dict[str, list[str]] = {}
     for line in table:
+        if line.startswith("Is the * right?"):
+            break
         if re.match(r"[*+oa-e] ", line):
             lines.setdefault(line[0], []).append(plain(line[1:]))
     return lines
@@ -203,15 +205,21 @@ def test_the_plus_is_where_the_example_as_it_is_has_its_car(change: str) -> None
     assert "+" in seen
     assert seen <= {"+", "*"}  # the * may hide it
 
-@pytest.mark.parametrize(("words", "name"), [
-    ("14 fps_target=100", "gets out"), ("8 fps_target=30 CR=0.5", "has too little energy"),
-    ("22 jitter=0.5 use_observed_dt=True", "hops on"), ("8 CR=0.5", None), ("14", None)])
-def test_after_a_film_with_other_frames_the_verdict_on_the_example_as_it_is_is_told(
-        words: str, name: str | None) -> None:
-    *_, last = shown(f"{words} --frames=5").table
-    assert last.startswith("Without your change") is (name is not None)
-    if name is not None:
-        assert f"{name}." in last
+@pytest.mark.parametrize(("words", "is_right", "verdict", "without"), [
+    ("14 fps_target=100", "Yes", "is right", "gets out"),
+    ("8 fps_target=30 CR=0.5", "No", "", "has too little energy"),
+    ("22 jitter=0.5 use_observed_dt=True", "No", "", "hops on"),
+    ("3 correction=surface", "No", "was off, with the right energy", "is stuck"),
+    ("15 CR=0.5", "By definition", "", ""), ("14", "No", "gets out", ""),
+    ("99 x_m=2 a_mps2=-2 CR=0.8 motion=exact correction=rewind", "Yes", "is right", "")])
+def test_after_a_film_it_is_told_if_the_car_is_right_and_if_it_was_without_the_change(
+        words: str, is_right: str, verdict: str, without: str) -> None:
+    text = plain("\n".join(shown(f"{words} --frames=5").table))
+    _, _, answer = text.partition("Is the * right? ")
+    assert answer.startswith(is_right)
+    assert verdict in answer
+    without_change = re.findall(r"Without your change it (.*)\.$", answer)
+    assert without_change == ([without] if without else [])
 
 def test_after_a_changed_film_the_map_is_advised_by_a_command_for_the_same_scene(
         play: Play, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -74,21 +74,26 @@ def test_the_whole_engine_draws_example_0(capsys: pytest.CaptureFixture[str],
     exec(block(README, "def settle("), {})
     assert lines == [line.partition(", FPS")[0] for line in shown("0 --frames 200").lines]
 
-def test_the_drawn_collision_by_each_correction() -> None:
-    rows = re.findall(r"(?m)^(the move|\w+) +(.*?)  +([\d.]+) +cm( \w+(?: front)?)? +"
-                      r"([\d.]+) m/s [a-z ]+E = ([\d.]+)$", block(README, "the move   0"))
-    assert [row[0] for row in rows] == ["start", "the move", *airtrack.CORRECTIONS]
-    for name, picture, cm, side, speed, energy in rows[2:]:
-        track = Track(motion="exact", correction=name, a_mps2=-20, left_edge_m=0, right_edge_m=1)
-        x_m, v_mps, mark_m = step(track, 0.12, -1.0, 0.1)
-        assert abs(100 * x_m) == pytest.approx(float(cm), abs=0.05)
-        assert (x_m > 0) is (side == " in front")
-        assert abs(v_mps) == pytest.approx(float(speed), abs=0.005)
-        assert track.energy(x_m, v_mps) == pytest.approx(float(energy), abs=0.005)
-        assert mark_m == pytest.approx(-0.08)
-        columns = {mark: picture.find(mark) for mark in "*|"}
-        assert columns["|"] in (-1, 8)
-        assert columns["*"] - 8 == round(100 * x_m)
+LISTING = (HERE / "airtrack.py").read_text(encoding="utf-8")
+
+@pytest.mark.parametrize("page", [README, LISTING])
+def test_the_drawn_collision_by_each_correction(page: str) -> None:
+    """At the right wall. A column is 1 cm."""
+    lines = [line.removeprefix("#     ") for line in page.splitlines()]
+    wall = next(line for line in lines if line.startswith("the move")).index("|")
+    for name in airtrack.CORRECTIONS:
+        track = Track(motion="exact", correction=name, a_mps2=20, left_edge_m=-1, right_edge_m=0)
+        x_m, v_mps, mark_m = step(track, -0.12, 1.0, 0.1)
+        picture = next(line for line in lines if re.match(rf"{name} +[*|]", line))
+        assert picture.index("*") - wall == round(100 * x_m)
+        assert picture.find("0", 0, wall + 10) in (-1, wall + 8)
+        assert mark_m == pytest.approx(0.08)
+        figures = [float(text) for text in re.findall(r"-?\d+\.\d+|\d+ ", picture[wall + 10:])]
+        depth, speed, energy = figures
+        in_m = 1 if page is LISTING else 0.01
+        assert in_m * abs(depth) == pytest.approx(abs(x_m), abs=0.0006)
+        assert abs(speed) == pytest.approx(abs(v_mps), abs=0.005)
+        assert energy == pytest.approx(track.energy(x_m, v_mps), abs=0.005)
 
 def test_the_two_lines_of_cure_are_those_of_the_whole_cure() -> None:
     text = "from math import sqrt\n" + block(README, "; v += g*dt")
@@ -104,7 +109,7 @@ def test_the_rows_of_the_map_are_the_program_s() -> None:
         motion, _, correction, *letters = row.split()
         track = compared(12, motion, correction)
         for fps, letter in zip(rates, letters, strict=True):
-            runs = [verdict(track, airtrack.beside(true, track, true[0]), true, 1 / 55)
+            runs = [verdict(track, airtrack.beside(true, track), true, 1 / 55)
                     for true in airtrack.ten_true_runs(track, fps)]
             assert airtrack.worst_of(runs) == letter
 
@@ -113,7 +118,7 @@ def test_a_method_stays_within_a_column_from_the_rate_that_is_told(letter: str, 
     errors_m = {}
     for rate in (fps, airtrack.CHART_FPS[airtrack.CHART_FPS.index(fps) - 1]):
         track = compared(12, **airtrack.METHODS[letter])
-        errors_m[rate] = max(airtrack.furthest_m(airtrack.beside(true, track, true[0]), true)
+        errors_m[rate] = max(airtrack.furthest_m(airtrack.beside(true, track), true)
                              for true in airtrack.ten_true_runs(track, rate))
     at_fps_m, below_m = errors_m.values()
     assert at_fps_m <= 1 / 55 < below_m
