@@ -24,7 +24,6 @@ from airtrack import (  # noqa: E402
     CHART_FPS,
     LEGEND,
     METHODS,
-    THE_TRUTH,
     compared_scene,
     make_parser,
     measured,
@@ -92,10 +91,13 @@ def chart(words: list[str], file: Path) -> None:
         errors_m = [max(point.error_m, left_m) for point in series]
         costs_us = [point.cost_us for point in series]
         axes.plot(errors_m, costs_us, f"{marker}-", label=LEGEND[letter])
-        if letter in ("b", "d", THE_TRUTH):  # the rates
-            for point, error_m in zip(series, errors_m, strict=True):
-                axes.annotate(f"  {point.fps}", (error_m, point.cost_us), fontsize=7)
-    axes.text(left_m, 1.0, "e is the truth,\nso it has no error", fontsize=8)
+        on_the_left = letter in "ac"
+        for point, error_m in zip(series, errors_m, strict=True):  # the rates
+            axes.annotate(f"{point.fps}  " if on_the_left else f"  {point.fps}",
+                          (error_m, point.cost_us), fontsize=6,
+                          horizontalalignment="right" if on_the_left else "left")
+        print(letter, *[f"{point.fps}: {point.cost_us:.3g}" for point in series])
+    axes.text(left_m, 1.0, "e: no error,\nby definition", fontsize=8)
     axes.axvline(scene.column_m(), color="black", linestyle="--", label="a column of the film")
     axes.legend(loc="lower center", bbox_to_anchor=(0.5, -0.28), ncols=3, fontsize=8)
     figure.savefig(file)
