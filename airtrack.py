@@ -18,10 +18,10 @@ For example: python airtrack.py 10 d CR=0.9
 
 In a film, * is the car and | is a wall. < or > is the car, too, when it is out
 of the picture. If the car bounces, 0 is where it would be now without the wall.
-A . is the start. o is the true car. a to e are the cars of five methods. If you
-change an example, but not its frames, + is the car without the change. A table
-after the film says which cars are right. The wall to which a car is accelerated
-is called its floor.
+A . is the start. o is the true car. a to e are the cars of five methods. + is
+the car without your change, if you change what moves the car of an example, but
+not the frames. A table after the film says which cars are right. The wall to
+which a car is accelerated is called its floor.
 """
 # What is where?
 #     Sections 1 to 5    the demo: how a car moves and bounces, how a frame is drawn, and the main
@@ -58,10 +58,10 @@ from examples import CHANGED, CHANGED_FRAMES, EXAMPLES, OWN_SCENE, Example, Keys
 #     dt_s     the time step in s: how much time passes for the car in a frame.
 #
 # The velocity changes during the frame. But Euler's methods move the car at one velocity through
-# the whole frame. The method forward takes the velocity at the start of the
-# frame, and backward takes the velocity at its end. Both are of first order: half the dt makes
-# half the error after a given time. The method exact has no error, because a is constant.
-# For a constant a, backward is the same as the method that is called semi-implicit Euler.
+# the whole frame. The method forward takes the velocity at the start of the frame, and backward
+# takes the velocity at its end. Both are of first order: half the dt makes half the error after a
+# given time. The method exact has no error, because a is constant. For a constant a, backward is
+# the same as the method that is called semi-implicit Euler.
 #
 # In free flight the energy of the car should not change. For each kilogram of the car this energy
 # is E = v^2/2 - a x. The docstring of each method says what one step does to E.
@@ -80,6 +80,22 @@ def backward(x_m: float, v_mps: float, a_mps2: float, dt_s: float) -> State:
 def exact(x_m: float, v_mps: float, a_mps2: float, dt_s: float) -> State:
     """Kinematics: x + v dt + a dt^2/2, and v + a dt. No step changes the energy E."""
     return x_m + v_mps * dt_s + a_mps2 * dt_s * dt_s / 2, v_mps + a_mps2 * dt_s
+
+def arrival(d_m: float, u_mps: float, a_mps2: float) -> tuple[float, float]:
+    """The other way round: when is a car at a place d_m ahead, and how fast? Returns t_s and w_mps.
+
+    u_mps is its velocity now. Here u_mps and a_mps2 are positive if they point to that place. The
+    car must be able to get there: with d = 1, u = 1 and a = -20 it is not.
+    """
+    # Energy gives the speed w there: w^2 = u^2 + 2 a d. Round-off may make w^2 negative.
+    w_mps = math.sqrt(max(0.0, u_mps * u_mps + 2 * a_mps2 * d_m))
+    # Two formulas give the time t. If two numbers are nearly equal, their difference is mostly
+    # round-off. So take the formula in which the speeds are added.
+    if u_mps > 0:
+        t_s = 2 * d_m / (u_mps + w_mps)  # from the mean velocity: d = t (u + w)/2
+    else:
+        t_s = (w_mps - u_mps) / a_mps2  # from w = u + a t. Here u <= 0, so w - u is a sum.
+    return t_s, w_mps
 
 # If you write another motion, with the same arguments, name it here. Then you can watch it in
 # films, and the map has it. There are three things that it does not get:
@@ -170,22 +186,6 @@ def conserve(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -
     # after a move with backward, which has lost energy. The bounce leaves the speed CR w.
     w_squared = max(0.0, inward_mps * inward_mps - 2 * inward_mps2 * depth_m)
     return 0.0, -CR * math.sqrt(w_squared)  # 1.93 m/s in the drawn collision
-
-def arrival(d_m: float, u_mps: float, a_mps2: float) -> tuple[float, float]:
-    """When will a car be at a wall d_m ahead of it, and how fast? Returns t_s and w_mps.
-
-    u_mps is the velocity of the car now. Both u_mps and a_mps2 count as positive if they point
-    towards the wall. The car must be able to get there: with d = 1, u = 1 and a = -20 it is not.
-    """
-    # Energy gives the speed w at the wall: w^2 = u^2 + 2 a d. Round-off may make w^2 negative.
-    w_mps = math.sqrt(max(0.0, u_mps * u_mps + 2 * a_mps2 * d_m))
-    # Two formulas give the time t. If two numbers are nearly equal, their difference is mostly
-    # round-off. So take the formula in which the speeds are added.
-    if u_mps > 0:
-        t_s = 2 * d_m / (u_mps + w_mps)  # from the mean velocity: d = t (u + w)/2
-    else:
-        t_s = (w_mps - u_mps) / a_mps2  # from w = u + a t. Here u <= 0, so w - u is a sum.
-    return t_s, w_mps
 
 def rewind(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> Contact:
     """Take the car back in time to the wall, let it bounce, and move it on to the frame's end.
@@ -298,11 +298,6 @@ class Frame(NamedTuple):
     v_mps: float
     mark_m: float | None
 
-def next_frame(track: Track, frame: Frame, dt_s: float) -> Frame:
-    """The frame that follows this one, after dt_s."""
-    x_m, v_mps, mark_m = step(track, frame.x_m, frame.v_mps, dt_s)
-    return Frame(frame.t_s + dt_s, dt_s, x_m, v_mps, mark_m)
-
 class Car:
     """A car on a track. It keeps its frames, so that one can tell later what happened."""
 
@@ -312,7 +307,9 @@ class Car:
 
     def move(self, dt_s: float) -> None:
         """Make a frame of dt_s, and keep it."""
-        self.frames.append(next_frame(self.track, self.frames[-1], dt_s))
+        last = self.frames[-1]
+        x_m, v_mps, mark_m = step(self.track, last.x_m, last.v_mps, dt_s)
+        self.frames.append(Frame(last.t_s + dt_s, dt_s, x_m, v_mps, mark_m))
 
 # ==== 4. Drawing ================================================================================
 # How does a frame become a line of text, and why text?
@@ -460,19 +457,19 @@ def rest_began_s(track: Track, frames: list[Frame], column_m: float) -> float | 
         is_at_rest = rest.look(frame)
     return rest.began_s if is_at_rest else None
 
-def planned_length(scene: Scene, frame: int) -> float:
-    """How long this frame should last, in s. With jitter, frames are irregular."""
+def planned_length_s(scene: Scene, number: int) -> float:
+    """How long the frame of this number should last. With jitter, frames are irregular."""
     # Numbers that look random, but are the same each time: the multiples of 0.618 (the golden ratio
     # - 1) without their whole parts. They are spread evenly from 0 to 1.
-    from_0_to_1 = (0.618 * frame) % 1
+    from_0_to_1 = (0.618 * number) % 1
     from_minus_1_to_1 = 2 * from_0_to_1 - 1
     return (1 + scene.jitter * from_minus_1_to_1) / scene.fps_target
 
-def planned_dt(scene: Scene, frame: int) -> float:
+def planned_dt_s(scene: Scene, number: int) -> float:
     """How much time should pass for the car in this frame."""
     if scene.use_observed_dt:
-        return planned_length(scene, frame)
-    return 1 / scene.fps_target
+        return planned_length_s(scene, number)
+    return 1 / scene.fps_target  # whatever the clock says
 
 STALL_S = 0.15  # a delay that everybody sees: people begin to notice one at about 0.1 s
 
@@ -487,33 +484,32 @@ class Pace:
         self.scene = scene
         self.keys = keys
         # Pretend that frame 1 began one frame ago. So frame 1 is due now.
-        self.shown_s = time.perf_counter() - planned_length(scene, 1)
+        self.shown_s = time.perf_counter() - planned_length_s(scene, 1)
         self.due_s = self.shown_s
 
-    def wait(self, frame: int, t_s: float) -> tuple[float, float]:
-        """Wait until this frame is due. Returns its dt_s, and the frame rate that d shows.
+    def wait(self, number: int, t_s: float) -> tuple[float, float]:
+        """Wait until the frame of this number is due. Returns its dt_s, and the rate that d shows.
 
-        t_s is what a pause shows. Without keys (--fast) nothing waits, and all is as planned.
+        t_s is how much time has passed in the film, for the text of a pause. Without keys (--fast)
+        nothing waits, and all is as planned.
         """
-        dt_s = planned_dt(self.scene, frame)
+        dt_s, fps = planned_dt_s(self.scene, number), self.scene.fps_target
         if self.keys is None:
-            return dt_s, self.scene.fps_target
-        planned_s = planned_length(self.scene, frame)
-        self.due_s += planned_s
-        was_timed = self.keys.wait(self.due_s, frame, t_s)
+            return dt_s, fps
+        self.due_s += planned_length_s(self.scene, number)
+        was_timed = self.keys.wait(self.due_s, number, t_s)  # False after a pause
         now_s = time.perf_counter()
         lasted_s = now_s - self.shown_s
         self.shown_s = now_s
-        # After a pause, or if the film is far behind its plan, plan the next frames from now.
-        # Otherwise the film would race to catch up.
+        if was_timed:
+            fps = 1 / max(lasted_s, 1e-6)  # the clock may not have ticked in between
+        # After a pause or a stall plan the next frames from now. Otherwise the film would race to
+        # catch up. And keep the planned dt. Otherwise the car would leap.
         if not was_timed or now_s > self.due_s + STALL_S:
             self.due_s = now_s
-        if not was_timed:
-            return dt_s, self.scene.fps_target
-        # After a stall keep the planned dt. With the observed one the car would leap.
-        if self.scene.use_observed_dt and lasted_s <= planned_s + STALL_S:
+        elif self.scene.use_observed_dt:
             dt_s = lasted_s
-        return dt_s, 1 / max(lasted_s, 1e-6)  # the clock may not have ticked in between
+        return dt_s, fps
 
 def run(cars: dict[str, Car], scene: Scene, view: View, max_frames: int,
         keys: Keys | None) -> None:
@@ -525,9 +521,9 @@ def run(cars: dict[str, Car], scene: Scene, view: View, max_frames: int,
     rest = Rest(car.track, scene.column_m())
     pace = Pace(scene, keys)
     why = "that is the frame limit"
-    for frame in range(1, max_frames + 1):
+    for number in range(1, max_frames + 1):
         # Wait until the frame is due. A key may end the film meanwhile.
-        dt_s, fps = pace.wait(frame, car.frames[-1].t_s)
+        dt_s, fps = pace.wait(number, car.frames[-1].t_s)
         if keys is not None and keys.why_quit:
             why = keys.why_quit
             break
@@ -702,13 +698,11 @@ def track_text(track: Track) -> str:
             f"{track.right_edge_m:.10g} m")
 
 def simulate(track: Track, lengths_s: list[float]) -> list[Frame]:
-    """The start of the car, and a frame of each of these lengths."""
-    frame = Car(track).frames[0]
-    frames = [frame]
+    """The start of a car, and a frame of each of these lengths."""
+    car = Car(track)
     for dt_s in lengths_s:
-        frame = next_frame(track, frame, dt_s)
-        frames.append(frame)
-    return frames
+        car.move(dt_s)
+    return car.frames
 
 def beside(frames: list[Frame], track: Track) -> list[Frame]:
     """A car on this track that starts as those frames do, and makes frames of the same lengths."""
@@ -758,32 +752,29 @@ def costs_us(tracks: dict[str, Track], fps: int) -> dict[str, float]:
 class Point(NamedTuple):
     """One method at one frame rate: a point of the chart."""
 
-    letter: str
     fps: int
     error_m: float  # the largest in ten runs. For e it is 0: e is how the true car is moved.
     cost_us: float
 
-def measured(track: Track, fps: int) -> list[Point]:
+def measured(track: Track, fps: int) -> dict[str, Point]:
     """Measure each of the five methods at this rate."""
     tracks = by_five_methods(track)
     costs = costs_us(tracks, fps)
     true_runs = ten_true_runs(track, fps)
-    points = []
+    points = {}
     for letter, method_track in tracks.items():
         error_m = 0.0
         if letter != THE_TRUTH:
             for true_frames in true_runs:
                 frames = beside(true_frames, method_track)
                 error_m = max(error_m, furthest_m(frames, true_frames))
-        points.append(Point(letter, fps, error_m, costs[letter]))
+        points[letter] = Point(fps, error_m, costs[letter])
     return points
 
 CHART_FPS = [1, 2, 5, 10, 30, 60, 120, 240, 480, 960]
 GAME_FPS = 60  # most screens show so many frames a second
 
-def of_method(letter: str, points: list[Point]) -> list[Point]:
-    """The points of one method."""
-    return [point for point in points if point.letter == letter]
+Series = dict[str, list[Point]]  # the points of each method, from the lowest rate to the highest
 
 def order_text(points: list[Point], track_m: float) -> str:
     """The order of a method: at order 1 twice the rate divides the error by 2, at order 2 by 4."""
@@ -802,13 +793,13 @@ def order_text(points: list[Point], track_m: float) -> str:
     slope, _ = linear_regression(rates, errors)
     return f"{-slope:.1f}"
 
-def row_text(points: list[Point]) -> str:
-    """A row of the table: the points of one frame rate. A - is no error, not even round-off."""
-    row = f"{points[0].fps:4}"
-    for point in points:
+def row_text(row: dict[str, Point], fps: int) -> str:
+    """A row of the table: all methods at one rate. A - is no error, not even round-off."""
+    text = f"{fps:4}"
+    for point in row.values():
         error = f"{point.error_m:.1e}" if point.error_m > 0 else "-"
-        row += f"{error:>8}{point.cost_us:7.1f}"
-    return row
+        text += f"{error:>8}{point.cost_us:7.1f}"
+    return text
 
 DECADES = ["<=1 um", "10 um", "0.1 mm", "1 mm", "1 cm", "0.1 m", "1 m", ">=10 m"]
 LEAST_ERROR_M = 1e-6  # the left edge. A decade is from one power of ten to the next.
@@ -820,16 +811,17 @@ def error_column(error_m: float) -> int:
     decades = math.log10(max(error_m, LEAST_ERROR_M) / LEAST_ERROR_M)
     return min(round(COLUMNS_A_DECADE * decades), LAST_COLUMN)
 
-def print_picture(points: list[Point], column_m: float) -> None:
+def print_picture(series: Series, column_m: float) -> None:
     """Draw the points as the film is drawn: error to the right, cost downwards."""
     letters: dict[tuple[int, int], str] = {}  # by row and column
-    for point in points:
-        row = round(ROWS_A_DECADE * math.log10(point.cost_us))
-        place = row, error_column(point.error_m)
-        if place in letters and letters[place] != point.letter:
-            letters[place] = "+"  # another letter stands there already
-        else:
-            letters[place] = point.letter
+    for letter, points in series.items():
+        for point in points:
+            row = round(ROWS_A_DECADE * math.log10(point.cost_us))
+            place = row, error_column(point.error_m)
+            if place in letters and letters[place] != letter:
+                letters[place] = "+"  # another letter stands there already
+            else:
+                letters[place] = letter
     rows = [row for row, _ in letters]
     limit = error_column(column_m)
     print("a column of the film |".rjust(10 + limit + 1))
@@ -841,18 +833,18 @@ def print_picture(points: list[Point], column_m: float) -> None:
             line += letters.get((row, column), behind)
         print(line.rstrip())
 
-def print_answers(points: list[Point], column_m: float) -> None:
+def print_answers(series: Series, column_m: float) -> None:
     """Print from which rate on a method is good enough, and its cost and error in a game."""
     rows = []
-    for in_game in [point for point in points if point.fps == GAME_FPS]:
-        letter = in_game.letter
+    for letter, points in series.items():
         cheapest_us = math.inf
         within = "at no rate"
-        for point in reversed(of_method(letter, points)):  # from the highest rate down
+        for point in reversed(points):  # from the highest rate down, as long as it is good enough
             if point.error_m > column_m:
                 break
             cheapest_us = point.cost_us
             within = f"from {point.fps:4} FPS on: {cheapest_us:6.1f} us"
+        in_game = next(point for point in points if point.fps == GAME_FPS)
         off = f"up to {in_game.error_m:.2g} m off"
         if letter == THE_TRUTH:
             off = "right by definition"
@@ -880,22 +872,23 @@ def chart(scene: Scene, words: str) -> None:
     print()
     print(" " * 4 + "".join([letter.rjust(11) + " " * 4 for letter in METHODS]).rstrip())
     print(" FPS" + " error m     us" * len(METHODS))
-    points = []
+    series: Series = {letter: [] for letter in METHODS}
     for fps in CHART_FPS:
         row = measured(scene.track, fps)
-        print(row_text(row), flush=True)
-        points += row
+        print(row_text(row, fps), flush=True)
+        for letter, point in row.items():
+            series[letter].append(point)
     orders = "order"
-    for letter in METHODS:
-        order = order_text(of_method(letter, points), scene.track.length_m())
+    for points in series.values():
+        order = order_text(points, scene.track.length_m())
         orders += f"{order:>7}" + " " * 8
     print(orders.rstrip())
     print()
-    print_picture(points, column_m)
+    print_picture(series, column_m)
     say("Error to the right, cost downwards: the best are in the upper left. + is where letters "
         f"meet. The answer: within a column ({column_m:.2g} m) in all runs, at this rate and at "
         "each higher one of the table:")
-    print_answers(points, column_m)
+    print_answers(series, column_m)
     say("In a game c may do, although its bounces come up to a frame late. It comes to rest on a "
         "floor if CR is below 1, and it is never thrown out. Method e must know all walls before "
         "it moves, and c need not.")
@@ -906,21 +899,38 @@ def chart(scene: Scene, words: str) -> None:
 
 MAP_FPS = [1, 2, 5, 10, 30, 60, 120, 240, 480]
 LATE_S = 15  # here the last 5 s of a run begin
-VERDICTS = {  # a letter, its name, and what it means
+VERDICTS = {  # from the worst to the best: a letter, its name, and what it means
     "X": ("gets out", "further beyond a wall than the track is long"),
     "S": ("is stuck", "beyond the same wall all through the last 5 s"),
     "H": ("hops on", "not at rest at the end, and the true car lies still for the last 5 s"),
+    "W": ("has a wrong energy", "some runs have a G, others an L"),  # only in the map: worst_of()
     "G": ("has too much energy", "on average in the last 5 s by over 1 % of the start's"),
     "L": ("has too little energy", "on average in the last 5 s by over 1 % of the start's"),
-    "P": ("was off, with the right energy", "over a column off (energy: in the last 5 s)"),
+    "P": ("was off, with the right energy", "by over a column, but not in energy"),
     "-": ("is right", "never over a column of the film off"),
 }
-FROM_WORST_TO_BEST = "XSHWGLP-"  # W is for several runs: see worst_of()
+FROM_WORST_TO_BEST = list(VERDICTS)
+
+# Why do some cars hop for ever (H), and why do others get too much energy (G) or too little (L)?
+# Let a car hop on its floor with exact + surface, in frames of one length dt. g is the size of its
+# acceleration. Say g dt is 0.4 m/s, and a hop begins on the floor at u = 1.1 m/s, upwards. A true
+# car is on the floor again when it has lost 2 u = 2.2 m/s: between frame 5, where it has -0.9 m/s,
+# and frame 6, where it would have -1.3 m/s. So it comes back at 1.1 m/s. But the program finds the
+# car below the floor in frame 6. So here it comes back at w = 1.3 m/s.
+#     In general a hop ends with the first frame n in which n g dt is above 2 u, and with the speed
+#             w = n g dt - u = u + k g dt,        where k = n - 2 u/(g dt) is above 0, at most 1.
+#     So the car gets speed from nothing. At CR = 1 it hops higher and higher (G). At a smaller CR a
+#     bounce takes (1 - CR) w. If CR is not too small, a slow car gets as much in each hop, and hops
+#     for ever (H). Rebound gives even more.
+#     With backward + surface each frame ends lower, by g dt^2/2. So a hop may end a frame earlier.
+#     In hops of two frames or more k is above -1 and at most 0, and the hops get shorter. In the
+#     end they have one frame: the car lies on its floor, even at CR = 1 (L).
+# The page .github/law.md has the other methods, the proofs and the exceptions.
 
 def verdict(track: Track, frames: list[Frame], true_frames: list[Frame], column_m: float) -> str:
-    """The letter of a car that ran for 20 s beside its true car: X, S, H, G, L, P or -."""
+    """The letter of a car that ran for 20 s beside its true car: any letter but W."""
     left_m, right_m, track_m = track.left_edge_m, track.right_edge_m, track.length_m()
-    places_m = [frame.x_m for frame in frames]
+    places_m = [frame.x_m for frame in frames[1:]]  # the start may be anywhere
     if max(places_m) > right_m + track_m or min(places_m) < left_m - track_m:
         return "X"
     late = [frame for frame in frames if frame.t_s >= LATE_S - ROUND_OFF_S]
@@ -930,14 +940,15 @@ def verdict(track: Track, frames: list[Frame], true_frames: list[Frame], column_
         return "S"
     if furthest_m(frames, true_frames) <= column_m:
         return "-"
-    # H: if the true car lies still, replay has put it on its floor. Then its energy is exactly 0.
+    # If replay has laid the true car on its floor, its energy is exactly 0.
     true_energies = [track.energy(true.x_m, true.v_mps) for true in true_frames[-len(late):]]
     if max(true_energies) == 0 and rest_began_s(track, frames, column_m) is None:
         return "H"
-    # G and L: on average over the last 5 s. 100 % is the energy at the start.
     energies = [track.energy(frame.x_m, frame.v_mps) for frame in late]
     gain = fmean(energies) - fmean(true_energies)
-    one_percent = 0.01 * track.energy(true_frames[0].x_m, true_frames[0].v_mps)
+    # 100 % is the energy at the start. (If it is beyond a wall, the true car has another start.)
+    starts = [track.energy(start.x_m, start.v_mps) for start in (frames[0], true_frames[0])]
+    one_percent = 0.01 * max(abs(energy) for energy in starts)
     if gain > one_percent:
         return "G"
     if gain < -one_percent:
@@ -960,9 +971,8 @@ def stability(scene: Scene, words: str) -> None:
     say(f"Which methods are right, and from which frame rate on? Each runs {RUNS} times for "
         f"{SPAN_S} simulated seconds, from {RUNS} moments of the motion. A capital letter: all "
         "runs have it. A small letter: the worst of them has it. The key goes from the worst to "
-        "the best, and W comes after H. A car is only H, G, L or P if it was over a column off at "
-        "some time. Example 20 says why hops get too much energy, and example 19 why they get too "
-        "little.")
+        "the best. Only a car that was over a column off at some time can have an H, W, G, L or P.")
+    print(f"Next: {PYTHON} airtrack.py 20 (why hops get too much energy), or 19 (too little)")
     print()
     print(" " * 20 + "".join([str(fps).rjust(6) for fps in MAP_FPS]) + " FPS")
     true_runs = {fps: ten_true_runs(scene.track, fps) for fps in MAP_FPS}
@@ -981,20 +991,6 @@ def stability(scene: Scene, words: str) -> None:
             print(row, flush=True)
     for letter, (name, meaning) in VERDICTS.items():
         print(f"{letter}  {name}: {meaning}")
-    print(f"W  some runs have a G, others an L. Next: {PYTHON} airtrack.py 20")
-
-# Why do some cars hop for ever, and why do others lie still too soon? Let a car hop on its floor,
-# in frames of one length, with exact + surface. A hop begins on the floor, upwards, at a speed u.
-# After n frames the velocity is u - n g dt, and the height is n dt (u - n g dt/2). This is below 0
-# as soon as n is above s = 2 u/(g dt). There the hop ends, downwards, at w = n g dt - u. So
-#         w = u + k g dt,        with k = n - s, which is above 0 and at most 1.
-# A true car would come back at u. This one comes back faster: it gets speed from nothing. At CR = 1
-# it hops higher and higher (G). Below CR = 1 a bounce takes (1 - CR) w. If the car is slow, a hop
-# gives as much, and the car hops for ever (H). Rebound gives even more.
-#     With backward + surface each frame ends lower, and k is above -1 and at most 0, in hops of two
-#     frames or more. So if k is not 0, a hop loses speed, and the hops get as short as one frame:
-#     the car lies on its floor, even at CR = 1 (L).
-# The page .github/law.md has all of this, with proofs, and foretells a film on paper.
 
 # ==== 9. Before and after a film ================================================================
 # What is said before a film, and what after it?
@@ -1007,21 +1003,21 @@ class Film(NamedTuple):
     scene: Scene
     texts: Example  # what is said before and after it
     unchanged: Scene | None  # the example without the changes, if there are any
-    has_plus: bool  # whether the car without the changes is drawn, as a +
+    plus: Track | None  # the track of the +, if one is drawn
     has_details: bool
     is_fast: bool
     max_frames: int
 
-def cars_of(scene: Scene, unchanged: Track | None) -> dict[str, Car]:
-    """All cars that a film draws, by their marks, from back to front. unchanged is for a +."""
+def cars_of(scene: Scene, plus: Track | None) -> dict[str, Car]:
+    """All cars that a film draws, by their marks, from back to front."""
     cars = {}
     if scene.show_methods:
         for letter, track in by_five_methods(scene.track).items():
             cars[letter] = Car(track)
     if scene.show_exact_mark:
         cars["o"] = Car(truth_of(scene.track))
-    if unchanged is not None:
-        cars["+"] = Car(unchanged)
+    if plus is not None:
+        cars["+"] = Car(plus)
     cars["*"] = Car(scene.track)
     return cars
 
@@ -1070,7 +1066,7 @@ def energies_text(car: Car) -> str:
 def hops_text(car: Car) -> str:
     """How many frames its hops have, from bounce to bounce. Of many, the first four and last two.
 
-    A hop has two frames or more: a car that lies or is stuck meets its wall in each frame.
+    A bounce in each frame is no hop, as of a car that lies, is stuck, or is very fast.
     """
     bounces = [number for number, frame in enumerate(car.frames) if frame.mark_m is not None]
     hops = [str(after - before) for before, after in pairwise(bounces) if after - before > 1]
@@ -1089,67 +1085,56 @@ def end_text(car: Car, column_m: float) -> str:
         return "still moves"
     return "is beyond a wall"  # in all of its last ten frames, not only after a bounce
 
-def judged(car: Car, scene: Scene) -> tuple[str, str]:
-    """How far the car was from its true car in the film, and the verdict on the first SPAN_S.
-
-    If the film was shorter than that, planned frames are added for the verdict.
-    """
-    frames = list(car.frames)
-    while frames[-1].t_s < SPAN_S - ROUND_OFF_S:
-        frames.append(next_frame(car.track, frames[-1], planned_dt(scene, len(frames))))
-    true_frames = beside(frames, truth_of(car.track))
-    shown = len(car.frames)
-    off_m = furthest_m(frames[:shown], true_frames[:shown])
+def off_text(car: Car, true_frames: list[Frame]) -> str:
+    """How far the car was at most from its true car."""
+    off_m = furthest_m(car.frames, true_frames)
     little_m = float(f"{car.track.length_m() / 2000:.1g}")  # 1 mm on the lesson's track
-    off = f"under {little_m:g} m" if off_m < little_m else f"{off_m:.4g} m"
+    return f"under {little_m:g} m" if off_m < little_m else f"{off_m:.4g} m"
+
+def film_verdict(car: Car, scene: Scene) -> str:
+    """The verdict on the first SPAN_S. To a shorter film planned frames are added."""
+    judged = Car(car.track)
+    judged.frames = list(car.frames)
+    while judged.frames[-1].t_s < SPAN_S - ROUND_OFF_S:
+        judged.move(planned_dt_s(scene, len(judged.frames)))
     # Up to the frame in which the time is over.
-    count = 1 + sum(frame.t_s < SPAN_S - ROUND_OFF_S for frame in frames)
-    letter = verdict(car.track, frames[:count], true_frames[:count], scene.column_m())
-    return off, letter
+    count = 1 + sum(frame.t_s < SPAN_S - ROUND_OFF_S for frame in judged.frames)
+    frames = judged.frames[:count]
+    return verdict(car.track, frames, beside(frames, truth_of(car.track)), scene.column_m())
 
-def answer_text(letters: dict[str, str], is_longer: bool, column_m: float) -> str:
-    """Whether the * is right, and what the + is. letters has their verdicts."""
-    if "*" not in letters:
-        text = "Is the * right? By definition: it is the true car."
-    else:
-        name, meaning = VERDICTS[letters["*"]]
-        yes_or_no = "Yes" if letters["*"] == "-" else "No"
-        when = "In the first" if is_longer else "Computed on to"
-        text = (f"Is the * right? {yes_or_no}. {when} {SPAN_S} s it {name}: {meaning}. (A column "
-                f"is 1/m_to_px, {column_m:.2g} m.)")
-    if "+" in letters:
-        name, _ = VERDICTS[letters["+"]]
-        text += f" Without your change it {name}."
-    return text
-
-def tell_cars(cars: dict[str, Car], scene: Scene) -> None:
+def tell_cars(cars: dict[str, Car], scene: Scene, unchanged: Scene | None) -> None:
     """Print a table of the cars, what became of them, and whether the * is right."""
     column_m = scene.column_m()
-    letters = {}  # the verdicts, by the marks of the cars. The true car has none.
     rows, ends = [], []
+    answer = "By definition: it is the true car."
+    true_frames = {}  # of the true cars, by their tracks: most cars have the same true car
     for mark, car in reversed(cars.items()):
         off = "the truth"
         end = f"{mark} {end_text(car, column_m)}; {hops_text(car)}"
-        if car.track != truth_of(car.track):
-            off, letters[mark] = judged(car, scene)
-            name, _ = VERDICTS[letters[mark]]
+        truth = truth_of(car.track)
+        if car.track != truth:
+            if truth not in true_frames:
+                true_frames[truth] = beside(car.frames, truth)
+            off = off_text(car, true_frames[truth])
+            name, meaning = VERDICTS[film_verdict(car, scene)]
             end += f"; {name}"
+            if mark == "*":
+                yes_or_no = "Yes" if name == "is right" else "No"
+                answer = (f"{yes_or_no}. In its first {SPAN_S} s (computed on, if the film was "
+                          f"shorter) it {name}: {meaning}.")
         rows.append(f"{mark} {method_text(car.track):20}{off:>15}{energies_text(car)}")
         ends.append(end)
+    if unchanged is not None:
+        before = cars.get("+", Car(unchanged.track))  # with other frames there is no +
+        name, _ = VERDICTS[film_verdict(before, unchanged)]
+        answer += f" Without your change it {name}."
     print()
     print("                        furthest from    energy in J/kg (0: lies at its floor)")
     print("                       its own truth     first     least      most      last")
     print(*rows, sep="\n")
     print(f"At the end of the film; each hop in frames; verdict on the first {SPAN_S} s:")
     print(*ends, sep="\n")
-    is_longer = cars["*"].frames[-1].t_s > SPAN_S - ROUND_OFF_S
-    say(answer_text(letters, is_longer, column_m))
-
-def tell_unchanged(scene: Scene) -> None:
-    """Say the verdict on the example without the changes, in its own frames."""
-    _, letter = judged(Car(scene.track), scene)
-    name, _ = VERDICTS[letter]
-    say(f"Without your change it {name}.")
+    say(f"Is the * right? {answer} (A column is 1/m_to_px, {column_m:.2g} m.)")
 
 def film(wanted: Film) -> None:
     """Say what to look for, leave time to guess, show the film, and say what was to be seen."""
@@ -1163,8 +1148,7 @@ def film(wanted: Film) -> None:
     if drawn.width_px < scene.width_px:
         say(f"The picture is drawn {drawn.width_px} columns wide, because the terminal is narrow.")
     view = View(drawn, wanted.has_details, has_colours() and not wanted.is_fast)
-    plus = wanted.unchanged.track if wanted.unchanged and wanted.has_plus else None
-    cars = cars_of(scene, plus)
+    cars = cars_of(scene, wanted.plus)
     taking = nullcontext() if wanted.is_fast else taken_keys()
     with taking as keys:
         if keys is None:
@@ -1177,9 +1161,7 @@ def film(wanted: Film) -> None:
         run(cars, scene, view, wanted.max_frames, keys)
     if len(cars["*"].frames) == 1:
         return  # it was ended before it began
-    tell_cars(cars, scene)
-    if wanted.unchanged and not wanted.has_plus:
-        tell_unchanged(wanted.unchanged)
+    tell_cars(cars, scene, wanted.unchanged)
     if not wanted.is_fast:
         say_after(wanted)
 
@@ -1241,7 +1223,7 @@ def value_of(name: str, text: str) -> Any:
         for each in SETTINGS[name].metadata["choices"]:
             if text.lower() == str(each).lower():
                 return each
-        raise Refused(fault_text(name, text))
+        return text  # check() refuses it
     if "," in text:
         raise Refused(f"{fault_text(name, text)}: write a decimal point, not a comma")
     try:
@@ -1339,10 +1321,25 @@ def make_parser() -> argparse.ArgumentParser:
     parser.add_argument("-help", action="help", help=argparse.SUPPRESS)
     return parser
 
-def sort_words(options: argparse.Namespace, words: list[str]) -> None:
-    """Sort the words, and add to options what they say. Raises Refused for one that is wrong."""
-    commands, numbers = [], []
-    texts = {}  # what was typed for a setting, by its name
+class Words(NamedTuple):
+    """The words of the command line, sorted."""
+
+    command: str  # chart or stability, or nothing for a film
+    number: int  # of the example
+    texts: dict[str, str]  # what was typed for each setting, by its name
+    has_d: bool
+
+    def typed(self) -> list[str]:
+        """The settings as they were typed."""
+        return [f"{name}={text}" for name, text in self.texts.items()]
+
+    def changes(self) -> dict[str, Any]:
+        """The values of these settings. Raises Refused."""
+        return {name: value_of(name, text) for name, text in self.texts.items()}
+
+def sorted_words(words: list[str]) -> Words:
+    """Sort the words. Raises Refused for one that is wrong."""
+    commands, numbers, texts, has_d = [], [], {}, False
     for word in words:
         name, _, text = word.partition("=")
         if word in COMMANDS:
@@ -1350,7 +1347,7 @@ def sort_words(options: argparse.Namespace, words: list[str]) -> None:
         elif re.fullmatch("-?[0-9]{1,9}", word):
             numbers.append(word)
         elif word == "d":
-            options.details = True
+            has_d = True
         elif name in SETTINGS and text.strip():
             texts[name] = text.strip()
         else:
@@ -1358,61 +1355,65 @@ def sort_words(options: argparse.Namespace, words: list[str]) -> None:
     if len(commands) > 1 or len(numbers) > 1:
         found = ", ".join([*commands, *numbers])
         raise Refused(f"one command and one EXAMPLE at a time, not {found}")
-    options.command = commands[0] if commands else None
-    options.number = 12 if commands else 1
+    command = commands[0] if commands else ""
+    number = 12 if commands else 1
     if numbers:
-        options.number = int(numbers[0])
-    options.typed = [f"{name}={text}" for name, text in texts.items()]
-    options.changes = {name: value_of(name, text) for name, text in texts.items()}
+        number = int(numbers[0])
+    return Words(command, number, texts, has_d)
 
-def film_of(options: argparse.Namespace) -> Film:
+def film_of(words: Words, options: argparse.Namespace) -> Film:
     """The film that was asked for. Raises Refused."""
-    example = EXAMPLES.get(options.number, OWN_SCENE)
+    example = EXAMPLES.get(words.number, OWN_SCENE)
+    changes = words.changes()
     as_it_is = {name: each.default for name, each in SETTINGS.items()} | example.settings
-    changed = [name for name, value in options.changes.items() if value != as_it_is[name]]
-    settings = example.settings | options.changes
-    texts, unchanged = example, None
+    changed = [name for name, value in changes.items() if value != as_it_is[name]]
     changes_frames = any(name in OF_THE_FRAMES for name in changed)
     changes_car = any(name in OF_THE_TRACK for name in changed)
+    settings = example.settings | changes
+    texts, unchanged, plus = example, None, None
     if example is not OWN_SCENE and (changes_car or changes_frames):
         # Nobody knows what happens there. So the film shows the true car.
         settings = {"show_exact_mark": True} | settings
-        texts = CHANGED_FRAMES if changes_frames else CHANGED
+        texts = CHANGED_FRAMES
         unchanged = scene_of(example.settings)
-    has_plus = unchanged is not None and not changes_frames  # a + would need frames of its own
+        if not changes_frames:  # otherwise a + would need frames of its own
+            texts = CHANGED
+            plus = unchanged.track
+    has_details = words.has_d or options.details or example.has_details
     max_frames = FRAMES if options.frames is None else options.frames
-    return Film(options.number, options.typed, scene_of(settings), texts, unchanged, has_plus,
-                options.details or example.has_details, options.fast, max_frames)
+    return Film(words.number, words.typed(), scene_of(settings), texts, unchanged, plus,
+                has_details, options.fast, max_frames)
 
-def compared_scene(options: argparse.Namespace) -> Scene:
+def compared_scene(words: Words, options: argparse.Namespace) -> Scene:
     """The scene of a chart or a map. Raises Refused for what these do not take."""
-    refused = [name for name in options.changes if name not in COMPARED]
+    changes = words.changes()
+    refused = [name for name in changes if name not in COMPARED]
     if refused:
-        raise Refused(f"{options.command} takes no {refused[0]}: it chooses methods and frame "
+        raise Refused(f"{words.command} takes no {refused[0]}: it chooses methods and frame "
                       f"rates itself, and takes an EXAMPLE and {', '.join(COMPARED)}")
-    if options.details or options.fast or options.frames is not None:
-        raise Refused(f"{options.command} is no film: it takes no d, --fast or --frames")
-    settings = EXAMPLES.get(options.number, OWN_SCENE).settings | options.changes
+    if words.has_d or options.details or options.fast or options.frames is not None:
+        raise Refused(f"{words.command} is no film: it takes no d, --fast or --frames")
+    settings = EXAMPLES.get(words.number, OWN_SCENE).settings | changes
     scene = scene_of({name: settings[name] for name in COMPARED if name in settings})
     # The truth of a start beyond a wall is a start at the wall.
     track = replace(scene.track, x_m=scene.track.to_track(scene.track.x_m))
     return replace(scene, track=track)
 
-def show(options: argparse.Namespace) -> None:
+def show(options: argparse.Namespace, unknown_options: list[str]) -> None:
     """Show what is asked for. Raises Refused before it shows anything."""
-    if options.command is None:
-        film(film_of(options))
+    words = sorted_words([*unknown_options, *options.words])
+    if words.command:
+        scene = compared_scene(words, options)
+        COMMANDS[words.command](scene, " ".join([str(words.number), *words.typed()]))
     else:
-        words = " ".join([str(options.number), *options.typed])
-        COMMANDS[options.command](compared_scene(options), words)
+        film(film_of(words, options))
 
 def main(argv: list[str] | None = None) -> int:
     """Do what argv or, without it, the command line asks for. Returns the exit status."""
     parser = make_parser()
     options, unknown_options = parser.parse_known_intermixed_args(argv)
     try:
-        sort_words(options, [*unknown_options, *options.words])
-        show(options)
+        show(options, unknown_options)
         sys.stdout.flush()
     except Refused as fault:
         parser.error(str(fault))  # this prints the text and ends the program with status 2

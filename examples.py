@@ -530,8 +530,8 @@ class Keys:
         for key in [*signals, *terminal_keys(), *self.window.keys()]:
             self.press(key.lower())
 
-    def wait(self, due_s: float, frame: int, t_s: float) -> bool:
-        """Wait until this frame is due or, in a pause, for a key. Returns False after a key.
+    def wait(self, due_s: float, number: int, t_s: float) -> bool:
+        """Wait until the frame of this number is due. A key may end the wait: then return False.
 
         due_s is a moment of time.perf_counter(). t_s is how much time has passed in the film.
         """
@@ -543,7 +543,7 @@ class Keys:
                 return True
             time.sleep(min(left_s, LOOK_S))
             self.look()
-        self.hold(f"paused after frame {frame - 1}, t = {t_s:.2f} s: p resumes, s steps, x quits")
+        self.hold(f"paused after frame {number - 1}, t = {t_s:.2f} s: p resumes, s steps, x quits")
         if self.steps > 0:
             self.steps -= 1
         return False

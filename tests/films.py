@@ -13,7 +13,7 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from airtrack import COMPARED, Car, Track, main, planned_dt, scene_of, step, truth_of
+from airtrack import COMPARED, Car, Track, main, planned_dt_s, scene_of, step, truth_of
 from examples import EXAMPLES, OWN_SCENE
 
 if sys.platform != "win32":
@@ -62,7 +62,7 @@ def filmed(number: int, frames: int, **changes: Any) -> Car:
     scene = scene_of(EXAMPLES.get(number, OWN_SCENE).settings | changes)
     car = Car(scene.track)
     for frame in range(1, frames + 1):
-        car.move(planned_dt(scene, frame))
+        car.move(planned_dt_s(scene, frame))
     return car
 
 def true_m(car: Car) -> list[float]:

@@ -24,11 +24,11 @@ from airtrack import (  # noqa: E402
     CHART_FPS,
     LEGEND,
     METHODS,
+    Series,
     compared_scene,
     make_parser,
     measured,
-    of_method,
-    sort_words,
+    sorted_words,
     track_text,
 )
 
@@ -71,32 +71,33 @@ def moving_picture(file: Path, command: str, count: int, rows: int) -> None:
 def chart(words: list[str], file: Path) -> None:
     """Measure as the program's chart does, and draw the points on two logarithmic scales."""
     options = make_parser().parse_args(["chart", *words])
-    sort_words(options, options.words)
-    scene = compared_scene(options)
+    sorted_by_kind = sorted_words(options.words)
+    scene = compared_scene(sorted_by_kind, options)
     figure = Figure(figsize=(8, 6), dpi=150, layout="constrained")
-    heading = f"Example {options.number}: {track_text(scene.track)}"
+    heading = f"Example {sorted_by_kind.number}: {track_text(scene.track)}"
     figure.suptitle(f"Speed against accuracy\n{textwrap.fill(heading, 110)}", fontsize=9)
     axes = figure.add_subplot(
         xscale="log", yscale="log", xlabel="largest error in ten runs (m): better to the left",
         ylabel="time for a simulated second (\N{MICRO SIGN}s): better upwards")
     axes.invert_yaxis()
     axes.margins(x=0.08)  # room for the labels
-    points = []
+    series: Series = {letter: [] for letter in METHODS}
     for fps in CHART_FPS:
-        points += measured(scene.track, fps)
+        for letter, point in measured(scene.track, fps).items():
+            series[letter].append(point)
     # An error of 0 has no place on a logarithmic scale. So e is drawn at the left edge.
-    left_m = max(1e-17, min([point.error_m for point in of_method("d", points)]) / 30)
+    left_m = max(1e-17, min([point.error_m for point in series["d"]]) / 30)
     for letter, marker in zip(METHODS, "oxD+v", strict=True):
-        series = of_method(letter, points)
-        errors_m = [max(point.error_m, left_m) for point in series]
-        costs_us = [point.cost_us for point in series]
+        points = series[letter]
+        errors_m = [max(point.error_m, left_m) for point in points]
+        costs_us = [point.cost_us for point in points]
         axes.plot(errors_m, costs_us, f"{marker}-", label=LEGEND[letter])
         on_the_left = letter in "ac"
-        for point, error_m in zip(series, errors_m, strict=True):  # the rates
+        for point, error_m in zip(points, errors_m, strict=True):  # the rates
             axes.annotate(f"{point.fps}  " if on_the_left else f"  {point.fps}",
                           (error_m, point.cost_us), fontsize=6,
                           horizontalalignment="right" if on_the_left else "left")
-        print(letter, *[f"{point.fps}: {point.cost_us:.3g}" for point in series])
+        print(letter, *[f"{point.fps}: {point.cost_us:.3g}" for point in points])
     axes.text(left_m, 1.0, "e: no error,\nby definition", fontsize=8)
     axes.axvline(scene.column_m(), color="black", linestyle="--", label="a column of the film")
     axes.legend(loc="lower center", bbox_to_anchor=(0.5, -0.28), ncols=3, fontsize=8)
