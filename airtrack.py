@@ -889,9 +889,9 @@ def chart(scene: Scene, words: str) -> None:
         f"meet. The answer: within a column ({column_m:.2g} m) in all runs, at this rate and at "
         "each higher one of the table:")
     print_answers(series, column_m)
-    say("In a game c may do, although its bounces come up to a frame late. It comes to rest on a "
-        "floor if CR is below 1, and it is never thrown out. Method e must know all walls before "
-        "it moves, and c need not.")
+    say("What speaks for c in a game: it comes to rest on a floor if CR is below 1, it is never "
+        "thrown out, and it need not know all walls before it moves, as e must. But its bounces "
+        "come up to a frame late.")
     print(f"Next: {PYTHON} airtrack.py stability {words}")
 
 # ==== 8. The map: where methods fail ============================================================
@@ -906,8 +906,8 @@ VERDICTS = {  # from the worst to the best: a letter, its name, and what it mean
     "W": ("has a wrong energy", "some runs have a G, others an L"),  # only in the map: worst_of()
     "G": ("has too much energy", "on average in the last 5 s by over 1 % of the start's"),
     "L": ("has too little energy", "on average in the last 5 s by over 1 % of the start's"),
-    "P": ("was off, with the right energy", "by over a column, but not in energy"),
-    "-": ("is right", "never over a column of the film off"),
+    "P": ("was off, with the right energy", "over a column off, energy right at the end"),
+    "-": ("is right", "never over a column away from the true car"),
 }
 FROM_WORST_TO_BEST = list(VERDICTS)
 
@@ -969,9 +969,10 @@ def stability(scene: Scene, words: str) -> None:
     column_m = scene.column_m()
     say(f"Stability. Scene {words}: {track_text(scene.track)}")
     say(f"Which methods are right, and from which frame rate on? Each runs {RUNS} times for "
-        f"{SPAN_S} simulated seconds, from {RUNS} moments of the motion. A capital letter: all "
-        "runs have it. A small letter: the worst of them has it. The key goes from the worst to "
-        "the best. Only a car that was over a column off at some time can have an H, W, G, L or P.")
+        f"{SPAN_S} simulated seconds in equal frames, from {RUNS} moments of the motion. A capital "
+        "letter: all runs have it. A small letter: the worst of them has it. The key goes from the "
+        "worst to the best. Only a car that was over a column off at some time can have an H, W, "
+        "G, L or P.")
     print(f"Next: {PYTHON} airtrack.py 20 (why hops get too much energy), or 19 (too little)")
     print()
     print(" " * 20 + "".join([str(fps).rjust(6) for fps in MAP_FPS]) + " FPS")
@@ -1080,7 +1081,7 @@ def end_text(car: Car, column_m: float) -> str:
     """What the car does at the end of the film."""
     began_s = rest_began_s(car.track, car.frames, column_m)
     if began_s is not None:
-        return f"at rest from {began_s:.2f} s on"
+        return f"at rest from {began_s:.2f} s"
     if any(car.track.has_on_it(frame.x_m) for frame in car.frames[-10:]):
         return "still moves"
     return "is beyond a wall"  # in all of its last ten frames, not only after a bounce
@@ -1110,14 +1111,14 @@ def tell_cars(cars: dict[str, Car], scene: Scene, unchanged: Scene | None) -> No
     true_frames = {}  # of the true cars, by their tracks: most cars have the same true car
     for mark, car in reversed(cars.items()):
         off = "the truth"
-        end = f"{mark} {end_text(car, column_m)}; {hops_text(car)}"
+        end = f"{mark} {end_text(car, column_m) + ';':23}{hops_text(car)}"
         truth = truth_of(car.track)
         if car.track != truth:
             if truth not in true_frames:
                 true_frames[truth] = beside(car.frames, truth)
             off = off_text(car, true_frames[truth])
             name, meaning = VERDICTS[film_verdict(car, scene)]
-            end += f"; {name}"
+            end = f"{end + '; ':50}{name}"
             if mark == "*":
                 yes_or_no = "Yes" if name == "is right" else "No"
                 answer = (f"{yes_or_no}. In its first {SPAN_S} s (computed on, if the film was "
@@ -1129,10 +1130,10 @@ def tell_cars(cars: dict[str, Car], scene: Scene, unchanged: Scene | None) -> No
         name, _ = VERDICTS[film_verdict(before, unchanged)]
         answer += f" Without your change it {name}."
     print()
-    print("                        furthest from    energy in J/kg (0: lies at its floor)")
-    print("                       its own truth     first     least      most      last")
+    print("                        furthest from     energy in J/kg (0: lies at its floor)")
+    print("                         its true car     first     least      most      last")
     print(*rows, sep="\n")
-    print(f"At the end of the film; each hop in frames; verdict on the first {SPAN_S} s:")
+    print(f"  at the film's end;     each hop in frames;      verdict on the first {SPAN_S} s")
     print(*ends, sep="\n")
     say(f"Is the * right? {answer} (A column is 1/m_to_px, {column_m:.2g} m.)")
 

@@ -98,8 +98,15 @@ def test_the_cost_is_the_least_time_that_the_steps_of_a_simulated_second_take_ea
 # What the chart shows.
 
 def chart_of(words: str, monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> str:
-    """The chart, if a simulated second costs as many us as it has frames."""
-    monkeypatch.setattr(airtrack, "costs_us", lambda tracks, fps: dict.fromkeys(tracks, float(fps)))
+    """The chart, if a frame costs 1 us with a, 2 us with b, and so on."""
+    methods = [*METHODS.values()]
+
+    def costs_us(tracks: dict[str, Track], fps: int) -> dict[str, float]:
+        return {letter: fps * (1.0 + methods.index(
+            {"motion": track.motion, "correction": track.correction}))
+            for letter, track in tracks.items()}
+
+    monkeypatch.setattr(airtrack, "costs_us", costs_us)
     monkeypatch.setenv("COLUMNS", "80")
     main(["chart", *words.split()])
     out = capsys.readouterr().out
@@ -119,13 +126,14 @@ def test_the_chart_of_a_flight_of_20_s_has_the_errors_of_a_closed_form(
         assert float(error_m) == pytest.approx(20 / fps / 2, rel=0.05)  # a t dt/2
         assert set(others_m) == {"-"}  # no bounce, no error
         assert no_error == "-"  # e is the truth
-        assert row.split()[1::2] == [f"{fps}.0"] * 5
+        assert row.split()[1::2] == [f"{n * fps}.0" for n in (1, 2, 3, 4, 5)]
     assert re.search(r"(?m)^order +1\.0 +none +none +none +none$", out)
     within = r"(?m)^([a-e]): .* from +(\d+) FPS on: +(\d+)\.0 us"
     assert sorted(re.findall(within, out)) == [  # a column is 5 cm
-        ("a", "240", "240"), *[(letter, "10", "10") for letter in "bcde"]]
+        ("a", "240", "240"), ("b", "10", "20"), ("c", "10", "30"), ("d", "10", "40"),
+        ("e", "10", "50")]
     assert re.search(r"(?m)^a: .* 60.0 us, up to 0.17 m off$", out)
-    assert re.search(r"(?m)^e: .* 60.0 us, .*by definition$", out)
+    assert re.search(r"(?m)^e: .* 300.0 us, .*by definition$", out)
     scale, = re.findall(r"(?m)^.* 1 mm .*$", out)
     drawn_at, = {line.index("|") for line in out.splitlines() if "|" in line}
     assert scale.index("1 cm ") < drawn_at < scale.index("0.1 m ")
@@ -251,7 +259,7 @@ def test_the_map_has_a_row_for_each_pair_and_fits_on_a_screen_with_its_key_and_a
 def told(words: str) -> str:
     """The name of the verdict that a film has for its *."""
     end = [line for line in shown(words).table if line.startswith("* ")][-1]
-    return end.rpartition("; ")[2]
+    return end.rpartition("; ")[2].strip()
 
 def test_film_chart_and_map_agree_on_what_is_within_a_column() -> None:
     for letter in "abcd":

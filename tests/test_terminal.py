@@ -161,6 +161,7 @@ def test_a_terminal_shows_the_marks_in_colours_unless_that_is_not_wanted() -> No
         shown, = [shown for shown in terminal.all.splitlines() if FRAME in shown]
         frames.append(shown.partition(FRAME)[0])
     coloured, *others = frames
+    assert "\x1b" not in coloured.partition("x = ")[2]  # figures are no marks
     assert set(re.findall("\x1b\\[[0-9]+m(.)\x1b\\[0m", coloured)) == {"*", "+", "o", "0"}
     assert others == [re.sub("\x1b\\[[0-9]+m(.)\x1b\\[0m", r"\1", coloured)] * 4
 
