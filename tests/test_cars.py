@@ -1,5 +1,6 @@
 """The cars of a film: which are drawn, and what the table tells of them."""
 
+import math
 import re
 from decimal import Decimal
 from typing import Any
@@ -143,7 +144,7 @@ def test_a_ceiling_that_is_never_met_changes_nothing(ceiling_m: int) -> None:
     assert row.split()[-4:] == row_of_3_m.split()[-4:]
 
 @pytest.mark.parametrize(("words", "is_at_rest"), [
-    # 2 mm above its floor it is low, and a hop of 2 mm lasts 2.8 s: it passes by in 0.4 s.
+    # It rises from 2 mm to 8 mm: it only passes by.
     ("99 x_m=0.252 v_mps=0.005 a_mps2=-0.002 motion=exact correction=replay CR=1", False),
     # A hop of one frame is drawn where the car lies: it begins at a dt/2, and nobody sees it rise.
     ("99 x_m=0.25 v_mps=0.1 a_mps2=-2 fps_target=10 CR=1 motion=exact correction=replay", True),
@@ -155,6 +156,16 @@ def test_at_rest_is_what_is_low_for_as_long_as_a_hop_of_that_height(
     film = shown(f"{words} --frames=100")
     assert (rest_text(film.table, "*") is not None) is is_at_rest
     assert (len(film.lines) < 100) is is_at_rest
+
+def test_a_car_is_not_at_rest_before_its_last_hop_above_the_limit_has_come_down() -> None:
+    # It falls 1.95 m with 0.02 m/s^2. Its 13th hop rises 1.95 m * 0.78^26, 3.05 mm. The limit is
+    # 3.00 mm, and a hop so high lasts 1.1 s.
+    film = shown("99 x_m=2.2 a_mps2=-0.02 CR=0.78 motion=exact correction=replay fps_target=60")
+    fall_s = math.sqrt(2 * 1.95 / 0.02)
+    last_bounce_s = fall_s * (1 + 2 * sum(0.78**hop for hop in range(1, 14)))
+    began = rest_text(film.table, "*")
+    assert began is not None
+    assert last_bounce_s - 0.6 < float(began) < last_bounce_s
 
 def test_a_car_that_takes_very_long_to_come_to_rest_is_asked_in_each_frame_at_no_cost() -> None:
     # With 1e-6 m/s^2 a hop of 3 mm lasts 155 s, so 155 000 frames: pytest's timeout would end it.

@@ -71,7 +71,7 @@ def test_the_order_is_the_power_with_which_errors_get_smaller(
 
 def test_the_cost_is_the_least_time_that_the_steps_of_a_simulated_second_take_each_in_its_turn(
         monkeypatch: pytest.MonkeyPatch) -> None:
-    # A step of a takes 2 us, one of b 3 us, and so on, but in the first two rounds all take 9 us.
+    # In the third round a step of a takes 2 us, one of b 3 us, and so on. In all others it is 9 us.
     tracks = {letter: Track(x_m=number, **METHODS[letter])
               for number, letter in enumerate(METHODS, start=2)}
     now_us: list[float] = [0.0]
@@ -85,7 +85,7 @@ def test_the_cost_is_the_least_time_that_the_steps_of_a_simulated_second_take_ea
         else:
             assert x_m == ends_m[track.x_m]  # and goes on where the step before has ended
         ends_m[track.x_m] = x_m + 0.25
-        now_us[0] += 9 if len(turns) <= 10 else track.x_m
+        now_us[0] += track.x_m if 10 < len(turns) <= 15 else 9
         return x_m + 0.25, v_mps, None
 
     monkeypatch.setattr(airtrack, "step", step)
@@ -226,6 +226,11 @@ def test_a_true_car_that_moves_in_one_of_the_last_frames_does_not_lie_still() ->
     true_frames = each_quarter_s([FLIES] * 61 + [LIES] * 20)
     assert verdict(TRACK, each_quarter_s([FLIES] * 81), true_frames, 0.01) == "G"
 
+def test_a_car_that_is_now_beyond_the_one_wall_and_now_beyond_the_other_is_not_stuck() -> None:
+    states = [FLIES] * 60 + [(-0.1, 1.0), (1.1, 1.0)] * 10 + [FLIES]
+    states[-1] = (-0.1, 1.0)
+    assert verdict(TRACK, each_quarter_s(states), each_quarter_s([FLIES] * 81), 0.01) != "S"
+
 @pytest.mark.parametrize(("frames", "letter"), [(8, "L"), (40, "S")])  # 3 and 11 of them are late
 def test_fewer_than_ten_frames_do_not_show_that_a_car_is_stuck(frames: int, letter: str) -> None:
     stuck = [Frame(20 * n / frames, 0.0, -0.1, 0.0, None) for n in range(frames + 1)]
@@ -281,3 +286,7 @@ def test_a_film_has_the_verdict_of_the_first_of_the_map_s_ten_runs_whenever_it_i
     words = f"{number} motion={motion} correction={correction} fps_target={fps} auto_off=False"
     for frames in (1, 7 * fps, 20 * fps, 33 * fps):
         assert told(f"{words} --frames={frames}") == name
+
+def test_a_film_with_jitter_has_the_same_verdict_however_early_it_is_ended() -> None:
+    words = "9 jitter=0.5 fps_target=10 auto_off=False"
+    assert told(f"{words} --frames=1") == told(f"{words} --frames=300")

@@ -2,6 +2,7 @@
 
 import contextlib
 import io
+import re
 from dataclasses import replace
 
 import pytest
@@ -82,3 +83,15 @@ def test_the_smallest_zoom_is_drawn_in_a_narrow_terminal_too(
     monkeypatch.setenv("COLUMNS", "60")
     with contextlib.redirect_stdout(TextOfATerminal()):
         assert main(["9", "m_to_px=0.0001", "--fast", "--frames=1"]) == 0
+
+def test_the_film_and_its_table_are_as_long_in_a_narrow_terminal(
+        monkeypatch: pytest.MonkeyPatch) -> None:
+    # A column is 2 mm. In 60 columns it is drawn wider.
+    rows = []
+    for columns in (60, 250):
+        monkeypatch.setenv("COLUMNS", str(columns))
+        with contextlib.redirect_stdout(TextOfATerminal()) as out:
+            main(["1", "m_to_px=500", "--fast"])
+        _, film, table = out.getvalue().split("\n\n")
+        rows.append((film.count("\n"), re.findall(r"rest from [0-9.]+ s", table)))
+    assert rows[0] == rows[1]
