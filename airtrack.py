@@ -17,11 +17,11 @@ Type any of these WORDs, in any order:
 For example: python airtrack.py 10 d CR=0.9
 
 In a film, * is the car and | is a wall. < or > is the car, too, when it is out
-of the picture. If the car bounces, 0 is where it would be now without the wall.
-A . is the start. o is the true car. a to e are the cars of five methods. + is
-the car without your change, if you change what moves the car of an example, but
-not the frames. A table after the film says which cars are right. The wall to
-which a car is accelerated is called its floor.
+of the picture. A 0 is where the car would be now without the wall that it met.
+A . is the start. o is the true car. a to e are the cars of five methods. If you
+change the car or the track of an example, + is the car without this change.
+(With other frames there is no +.) A table after the film says which cars are
+right. The wall to which a car is accelerated is called its floor.
 """
 # What is where?
 #     Sections 1 to 5    the demo: how a car moves and bounces, how a frame is drawn, and the main
@@ -98,19 +98,19 @@ def arrival(d_m: float, u_mps: float, a_mps2: float) -> tuple[float, float]:
     return t_s, w_mps
 
 # If you write another motion, with the same arguments, name it here. Then you can watch it in
-# films, and the map has it. There are three things that it does not get:
-#     The o is not its true car. The o is always moved with a constant acceleration.
-#     The chart does not have it: it compares METHODS (section 6).
-#     It does not go together with rewind and replay, which need the motion exact.
+# films, and the map has it. But three things are not for it:
+#     The true car o, the energies and conserve count on a constant acceleration.
+#     The chart compares only METHODS (section 6).
+#     The corrections rewind and replay need the motion exact.
 MOTIONS = {"forward": forward, "backward": backward, "exact": exact}
 
 # ==== 2. Colliding ==============================================================================
 # Where is the car after it has met a wall, and how fast is it?
 #
 # A collision is found when a move has ended beyond a wall. Then a correction changes the velocity
-# and, if it is a good one, the place. (With a bad one the car sticks in the wall. So the lesson
-# that this program follows calls it a stickiness correction.) A correction serves both walls. For
-# this, depth, velocity and acceleration count as positive into the wall:
+# and, except with none, the place. (The lesson that this program follows calls it a stickiness
+# correction, because without a good one the car may stick in the wall.) A correction serves both
+# walls. For this, depth, velocity and acceleration count as positive into the wall:
 #
 #     depth_m       how far the car is beyond the wall. In front of the wall, depth_m is negative.
 #     inward_mps    the velocity of the car. It is positive if the car moves into the wall.
@@ -149,7 +149,7 @@ def none(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> Co
         frame 47   The move ends 0.73 cm deep.   inward_mps changes from -1.33 to  0.80.
         frame 48   The move ends 3.56 cm deep.   inward_mps changes from  0.85 to -0.51.
     In frame 47 the car is still beyond the wall, because the bounce has slowed it. So its velocity
-    is reversed again, now into the wall. The same happens in frame 49, and so on: the car is
+    is reversed again, now into the wall. The same happens in frames 49, 51 and 53: the car is
     caught, and the acceleration makes it sink. Such a car is said to stick. The other corrections
     prevent this.
     """
@@ -169,8 +169,9 @@ def rebound(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) ->
 
     Without an acceleration this is right for one bounce in a frame: in the time in which the move
     went depth beyond the wall, the true car goes CR * depth back. If the acceleration points into
-    the wall, rebound leaves too much energy, and more than surface does. If CR * depth is longer
-    than the track, the car is thrown out at the other end (example 14).
+    the wall, the motion is exact and CR is above 0, rebound leaves too much energy, and more than
+    surface does. If CR * depth is longer than the track, the car is thrown out at the other end
+    (example 14).
     """
     return -CR * depth_m, -CR * inward_mps
 
@@ -193,23 +194,24 @@ def rewind(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> 
     With the exact motion this is right if the car bounces once in the frame, and the move ends
     beyond that wall. So in example 10, where CR is 1, the car comes back to its start each time.
     There are three faults:
-        A car that should lie still bounces again within the frame. Rewind leaves this bounce to the
-        next frame, so the velocity is never 0. In irregular frames such a car may go on to hop: in
-        example 12 by some mm.
+        In each frame the acceleration pushes a car that should lie still into its floor. Rewind
+        settles one bounce, and leaves the next one to the next frame. So the car keeps a velocity.
+        In irregular frames, or at CR = 1, it may go on to hop: in example 12 by some mm.
         The car may turn beyond the wall, and be back on the track when the frame ends. Then no
         collision is found: a missed event (example 18).
         In a frame in which the car should cross the whole track, it may be thrown out.
     """
-    # How long ago did the car pass the wall, and how fast? Let time run backwards. Then the car
-    # moves out of the wall, at inward_mps. The acceleration does not change with the direction of
-    # time. But out of the wall is positive now, so it is -inward_mps2. In the drawn collision the
-    # car passed the wall 0.030 s ago, at 2.41 m/s.
+    # How long ago did the car pass the wall, and how fast? Let time run backwards, and count out
+    # of the wall. If time is reversed, a velocity changes its sign, and an acceleration does not.
+    # If the direction is reversed, both change their signs. So the velocity is inward_mps again,
+    # and the acceleration is -inward_mps2. In the drawn collision the car passed the wall 0.030 s
+    # ago, at 2.41 m/s.
     late_s, met_mps = arrival(depth_m, inward_mps, -inward_mps2)
     # Run it forwards again, from the wall, after the bounce, for the same time.
     new_depth_m, new_inward_mps = exact(0.0, -CR * met_mps, inward_mps2, late_s)
     # If the car is in the wall again, there was a second bounce. Put the car on the wall, and leave
     # the second bounce to the next frame. (It has become faster in the wall, and keeps this speed.
-    # So it has a little too much energy.)
+    # So it has too much energy, but little of it if frames are short.)
     return min(new_depth_m, 0.0), new_inward_mps
 
 CORRECTIONS = {"none": none, "surface": surface, "rebound": rebound, "conserve": conserve,
@@ -410,11 +412,13 @@ class Rest:
     """Watches a car, frame by frame, and knows whether it is at rest, and since when.
 
     In most films the rule is: for 0.3 s and for ten frames the car has been on the track and low,
-    at most about 3 mm above its floor. (Its velocity does not count: a car may lie, and keep one.)
-        How low?    At most a 650th of the height that the car can reach, which is 3 mm on the whole
-                    of the lesson's track. And at most half a column of the film.
+    at most about 3 mm above its floor. (Its velocity does not count: with some methods a car that
+    lies still has one.)
+        How low?    At most a 650th of the height that the car can reach with the energy of its
+                    start. On the whole of the lesson's track this is 3 mm. And at most half a
+                    column of the film.
         How long?   At least as long as a hop to this height lasts. If the acceleration is small,
-                    this is more than 0.3 s. So a car that only passes by is gone before.
+                    this is more than 0.3 s. A car that only passes by is gone before.
     Without an acceleration the car has no floor. Then its velocity must be 0.
     """
 
@@ -469,7 +473,7 @@ def planned_dt_s(scene: Scene, number: int) -> float:
     """How much time should pass for the car in this frame."""
     if scene.use_observed_dt:
         return planned_length_s(scene, number)
-    return 1 / scene.fps_target  # whatever the clock says
+    return 1 / scene.fps_target  # the same in each frame, however long it lasts
 
 STALL_S = 0.15  # a delay that everybody sees: people begin to notice one at about 0.1 s
 
@@ -555,8 +559,8 @@ def run(cars: dict[str, Car], scene: Scene, view: View, max_frames: int,
 # meet the ceiling. So infinitely many hops take a finite time: if the first hop lasts 1 s, all of
 # them last 1 + CR + CR^2 + ... seconds, and this sum is 1/(1 - CR). The moment at which they end is
 # called the Zeno point. From then on the ball lies still. Nobody can follow infinitely many hops
-# one by one. So a ball that would rise less than GRAZE of the room lies still here. In example 12
-# it does so after bounce 55. With CR = 0.98 it would be after bounce 602.
+# one by one. So here a ball lies still if it would rise less than GRAZE times the height of the
+# room. In example 12 it does so after bounce 55. With CR = 0.98 it would be after bounce 602.
 
 GRAZE = 2.5e-11  # on the lesson's track 5e-11 m: far more than round-off, less than an atom's width
 
@@ -566,9 +570,9 @@ def next_bounce(h_m: float, rise_mps: float, g_mps2: float,
 
     h_m is the height of the ball, and rise_mps is its velocity, upwards.
     """
-    # To rise to the ceiling takes the energy g * (room - h). If a ball only just reaches it,
-    # round-off would decide whether it does. So here it meets the ceiling only if it could rise
-    # higher, by GRAZE of the room.
+    # To rise to the ceiling takes the energy g * (room - h). If the ball can only just do it,
+    # round-off would decide. So here it meets the ceiling only if it could rise above it, by GRAZE
+    # times the height of the room.
     energy_to_meet_it = g_mps2 * (room_m - h_m + GRAZE * room_m)
     if rise_mps > 0 and rise_mps * rise_mps / 2 >= energy_to_meet_it:
         flight_s, speed_mps = arrival(room_m - h_m, rise_mps, -g_mps2)
@@ -596,7 +600,7 @@ def follow(h_m: float, rise_mps: float, g_mps2: float, room_m: float, CR: float,
             continue
         h_m, rise_mps = 0.0, CR * speed_mps
         if rise_mps * rise_mps / 2 <= g_mps2 * GRAZE * room_m:
-            return 0.0, 0.0, True  # it lies still, as it cannot rise by GRAZE of the room
+            return 0.0, 0.0, True  # it lies still: see GRAZE
         if CR == 1 and has_met_floor:
             # At CR = 1 the ball needs the same time from floor to floor again and again. So leave
             # out all whole periods. What remains is the remainder of a division.
@@ -612,7 +616,7 @@ def replay(track: Track, x_m: float, v_mps: float, dt_s: float) -> Moved:
     It takes and returns what step() does, and is right for a frame of any length.
     """
     # A car that has moved one way only, and is still on the track, has met no wall. This quick way
-    # out is not needed, but most frames take it, and it is several times as fast.
+    # out is not needed, but most frames of a flight take it, and it is several times as fast.
     free_m, free_mps = exact(x_m, v_mps, track.a_mps2, dt_s)
     has_turned = v_mps * free_mps < 0  # its velocity has changed its sign
     if track.left_edge_m <= free_m <= track.right_edge_m and not has_turned:
@@ -642,10 +646,11 @@ def truth_of(track: Track) -> Track:
 #     d  exact + rewind      right        none                        short frames
 #     e  exact + replay      right        none                        the truth
 #
-# The table is for a car that bounces on its floor, at most once in a frame. Order 1 means that
-# frames of half the length make half the error.
-#     Exception: at CR < 1 the last frames before the Zeno point have several bounces. There d gets
-#     a little too much energy. This makes an error of order 2: a quarter, at half the length.
+# The table is for a CR above 0, and for a car that bounces on its floor, at most once in a frame.
+# The energy is that after a bounce. Order 1 means that frames of half the length, if they are short
+# enough, make about half the error. There are two exceptions:
+#     At CR < 1 the last frames before the Zeno point have several bounces. There d gets a little
+#     too much energy. So it has an error of order 2: frames of half the length make a quarter.
 #     Without an acceleration a, b, d and e have no error, and c has one of order 1.
 #
 # Methods a to d need short frames, because they look only at the end of a frame, and settle one
@@ -719,8 +724,8 @@ def ten_true_runs(track: Track, fps: int) -> list[list[Frame]]:
     """The frames of the true car in ten runs of SPAN_S. All methods are compared with them.
 
     An error depends on the moment of a frame at which the car meets a wall. So the runs begin at
-    ten moments of the same motion. Run 0 begins at the start. Each other run begins a part of a
-    frame later, where the true car is then.
+    ten moments of the same motion. Run 0 begins at the start, and each other run a part of a frame
+    after run 0, where the true car is then.
     """
     truth = truth_of(track)
     runs = []
@@ -862,12 +867,12 @@ def chart(scene: Scene, words: str) -> None:
     column_m = scene.column_m()
     say(f"Speed against accuracy. Scene {words}: {track_text(scene.track)}")
     say("Which method is the cheapest that stays within a column of the film? Each runs "
-        f"{RUNS} times for {SPAN_S} simulated seconds, from {RUNS} moments of the motion. Error: "
-        "the largest distance from the true car. (Method e has none, because the true car is moved "
-        "by it.) Cost: the time that a simulated second takes, in us (microseconds). Order 1: half "
-        "the dt makes half the error. Order 2: it makes a quarter. (The order is taken from the "
-        "errors below a tenth of the track. It is none if they are all round-off, and ? if there "
-        "are fewer than three.)")
+        f"{RUNS} times for {SPAN_S} simulated seconds in equal frames, from {RUNS} moments of the "
+        "motion. Error: the largest distance from the true car. (Method e has none, because the "
+        "true car is moved by it.) Cost: the time that a simulated second takes, in us "
+        "(microseconds). Order 1: half the dt makes half the error. Order 2: it makes a quarter. "
+        "(The order is taken from the errors below a tenth of the track and above round-off. It "
+        "is none if they are all round-off, and ? if fewer than three are left.)")
     say(", ".join(LEGEND.values()))
     print()
     print(" " * 4 + "".join([letter.rjust(11) + " " * 4 for letter in METHODS]).rstrip())
@@ -889,9 +894,9 @@ def chart(scene: Scene, words: str) -> None:
         f"meet. The answer: within a column ({column_m:.2g} m) in all runs, at this rate and at "
         "each higher one of the table:")
     print_answers(series, column_m)
-    say("What speaks for c in a game: it comes to rest on a floor if CR is below 1, it is never "
-        "thrown out, and it need not know all walls before it moves, as e must. But its bounces "
-        "come up to a frame late.")
+    say("Why c in a game? It comes to rest on a floor if CR is below 1, it is never thrown out, "
+        "and it need not know all walls before it moves, as e must. But its bounces come up to a "
+        "frame late.")
     print(f"Next: {PYTHON} airtrack.py stability {words}")
 
 # ==== 8. The map: where methods fail ============================================================
@@ -901,7 +906,7 @@ MAP_FPS = [1, 2, 5, 10, 30, 60, 120, 240, 480]
 LATE_S = 15  # here the last 5 s of a run begin
 VERDICTS = {  # from the worst to the best: a letter, its name, and what it means
     "X": ("gets out", "further beyond a wall than the track is long"),
-    "S": ("is stuck", "beyond the same wall all through the last 5 s"),
+    "S": ("is stuck", "beyond the same wall in all frames of the last 5 s, at least ten"),
     "H": ("hops on", "not at rest at the end, and the true car lies still for the last 5 s"),
     "W": ("has a wrong energy", "some runs have a G, others an L"),  # only in the map: worst_of()
     "G": ("has too much energy", "on average in the last 5 s by over 1 % of the start's"),
@@ -912,19 +917,26 @@ VERDICTS = {  # from the worst to the best: a letter, its name, and what it mean
 FROM_WORST_TO_BEST = list(VERDICTS)
 
 # Why do some cars hop for ever (H), and why do others get too much energy (G) or too little (L)?
-# Let a car hop on its floor with exact + surface, in frames of one length dt. g is the size of its
-# acceleration. Say g dt is 0.4 m/s, and a hop begins on the floor at u = 1.1 m/s, upwards. A true
-# car is on the floor again when it has lost 2 u = 2.2 m/s: between frame 5, where it has -0.9 m/s,
-# and frame 6, where it would have -1.3 m/s. So it comes back at 1.1 m/s. But the program finds the
-# car below the floor in frame 6. So here it comes back at w = 1.3 m/s.
-#     In general a hop ends with the first frame n in which n g dt is above 2 u, and with the speed
-#             w = n g dt - u = u + k g dt,        where k = n - 2 u/(g dt) is above 0, at most 1.
-#     So the car gets speed from nothing. At CR = 1 it hops higher and higher (G). At a smaller CR a
-#     bounce takes (1 - CR) w. If CR is not too small, a slow car gets as much in each hop, and hops
-#     for ever (H). Rebound gives even more.
-#     With backward + surface each frame ends lower, by g dt^2/2. So a hop may end a frame earlier.
-#     In hops of two frames or more k is above -1 and at most 0, and the hops get shorter. In the
-#     end they have one frame: the car lies on its floor, even at CR = 1 (L).
+# Let a car hop on its floor. g is the size of its acceleration, 4 m/s^2 here, and dt is 0.1 s. The
+# hop begins at the speed u = 1.1 m/s. A true car would come back to the floor at 1.1 m/s. But the
+# program finds the car only at the end of a frame, below the floor:
+#
+#     at the end of frame             1     2     3     4     5     6
+#     velocity upwards, in m/s      0.7   0.3  -0.1  -0.5  -0.9  -1.3
+#     height with exact, in cm        9    14    15    12     5    -6   found in frame 6: 1.3 m/s
+#     height with backward, in cm     7    10     9     4    -5         found in frame 5: 0.9 m/s
+#
+# In general a hop of n frames comes back at the speed
+#             w = n g dt - u = u + k g dt,        where k = n - 2 u/(g dt).
+#     With exact + surface n is the first number for which n g dt is above 2 u. So k is above 0, and
+#     at most 1: in each hop the car gets speed from nothing. At CR = 1 it hops higher and higher,
+#     up to the other wall (G). At CR below 1 it loses (1 - CR) w in each bounce. If CR is not too
+#     small, a slow car gets in each hop as much as it loses, and hops for ever (H). Rebound gives
+#     even more.
+#     With backward + surface each hop of two frames or more ends a frame earlier. So k is above -1,
+#     and at most 0. If k is below 0, the next hop is shorter, even at CR = 1. In the end the hops
+#     have one frame: the car lies on its floor (L). If k is 0, as after a start at v = 0, the hops
+#     at CR = 1 stay as long as they are.
 # The page .github/law.md has the other methods, the proofs and the exceptions.
 
 def verdict(track: Track, frames: list[Frame], true_frames: list[Frame], column_m: float) -> str:
@@ -970,9 +982,9 @@ def stability(scene: Scene, words: str) -> None:
     say(f"Stability. Scene {words}: {track_text(scene.track)}")
     say(f"Which methods are right, and from which frame rate on? Each runs {RUNS} times for "
         f"{SPAN_S} simulated seconds in equal frames, from {RUNS} moments of the motion. A capital "
-        "letter: all runs have it. A small letter: the worst of them has it. The key goes from the "
-        "worst to the best. Only a car that was over a column off at some time can have an H, W, "
-        "G, L or P.")
+        "letter: all runs have it. A small letter: the worst runs have it, and others are better. "
+        "The key goes from the worst to the best. Only a car that was over a column off at some "
+        "time can have an H, W, G, L or P.")
     print(f"Next: {PYTHON} airtrack.py 20 (why hops get too much energy), or 19 (too little)")
     print()
     print(" " * 20 + "".join([str(fps).rjust(6) for fps in MAP_FPS]) + " FPS")
@@ -1121,8 +1133,9 @@ def tell_cars(cars: dict[str, Car], scene: Scene, unchanged: Scene | None) -> No
             end = f"{end + '; ':50}{name}"
             if mark == "*":
                 yes_or_no = "Yes" if name == "is right" else "No"
-                answer = (f"{yes_or_no}. In its first {SPAN_S} s (computed on, if the film was "
-                          f"shorter) it {name}: {meaning}.")
+                is_short = car.frames[-1].t_s < SPAN_S - ROUND_OFF_S
+                computed = " (computed on after the film's end)" if is_short else ""
+                answer = f"{yes_or_no}. In its first {SPAN_S} s{computed} it {name}: {meaning}."
         rows.append(f"{mark} {method_text(car.track):20}{off:>15}{energies_text(car)}")
         ends.append(end)
     if unchanged is not None:
@@ -1133,6 +1146,7 @@ def tell_cars(cars: dict[str, Car], scene: Scene, unchanged: Scene | None) -> No
     print("                        furthest from     energy in J/kg (0: lies at its floor)")
     print("                         its true car     first     least      most      last")
     print(*rows, sep="\n")
+    print()
     print(f"  at the film's end;     each hop in frames;      verdict on the first {SPAN_S} s")
     print(*ends, sep="\n")
     say(f"Is the * right? {answer} (A column is 1/m_to_px, {column_m:.2g} m.)")

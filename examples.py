@@ -133,7 +133,7 @@ EXAMPLES = {
         "1.59 m. The rebound gives back more energy if the car is found deeper in the left wall. "
         "In irregular frames the depth is irregular, too. If you run the film again, the first "
         "turns are nearly the same. The later ones are not: the frames of a computer are never "
-        "quite the same, and each bounce makes this difference larger."),
+        "quite the same, and most bounces make this difference larger."),
     10: Example("The exact solution", EXACT,
         "Only 10 FPS, but exact formulas. How near to the start mark does the car come back? "
         "Begin with s, and press it until you see the 0 of the first bounce, in line 14. Then p "
@@ -153,9 +153,9 @@ EXAMPLES = {
         "faster and faster. Is there a last one? When does the car rest?",
         "There is no last bounce. In truth the car bounces infinitely often before t = 11.91 s, "
         "the Zeno point, and then it lies still. The film calls the * at rest from 12.10 s on. "
-        "But it never lies still: a car that lies would need infinitely many bounces in a frame, "
-        "and rewind can settle only one. With auto_off=False the car makes hops of some mm for "
-        "ever, too low to see. With correction=replay it lies still from the Zeno point on. "
+        "But it never lies still: to come to rest it would need infinitely many bounces in a "
+        "frame, and rewind can settle only one. With auto_off=False the car makes hops of some "
+        "mm for ever, too low to see. With correction=replay it lies still from the Zeno point on. "
         "Rewind is good enough for this scene: until the film ends it is at most about 4.2 mm "
         "off, less than a quarter of a column. On a busy computer all these figures may be a "
         "little different."),
@@ -181,8 +181,8 @@ EXAMPLES = {
         "motion": "exact", "correction": "replay"},
         "Example 14 with the exact solution, which settles every bounce. The car still moves 4 m "
         "in a frame. What will its motion look like?",
-        "The car seems to creep along the track. In a frame of 4 m it goes to the walls and back, "
-        "3.9 m, and ends 0.1 m from where it was. In the same way the wheels of a wagon seem to "
+        "The car seems to creep along the track. In most frames it goes 3.9 m to the walls and "
+        "back, and ends 0.1 m from where it was. In the same way the wheels of a wagon seem to "
         "turn slowly in a film. This is the stroboscopic effect."),
     16: Example("Example 8 beside the truth", COARSE | {"show_exact_mark": True},
         "The o is the true car, and the * is the car of example 8. When does the * leave the o, "
@@ -211,7 +211,7 @@ EXAMPLES = {
         "By frame 3 the o has bounced off the right wall. The * has turned without a bounce, and "
         "in frame 4 they are about 0.4 m apart. In frame 3 the move goes 1 cm beyond the wall and "
         "comes back before it ends. So no collision is found: a missed event. A method that looks "
-        "only at both ends of a step may miss one. With correction=replay the * stays on the o."),
+        "only at the end of a step may miss one. With correction=replay the * stays on the o."),
     19: Example("Elastic hops, counted", {
         "x_m": 0.84, "v_mps": 0.098, "a_mps2": -2.0, "CR": 1.0, "correction": "surface",
         "fps_target": 10.0, "show_exact_mark": True},
@@ -272,16 +272,17 @@ EXAMPLES = {
 # there, so the film's own table answers.
 CHANGED = Example("changed", {},
     "An o is the true car of the changed scene. A + is the car without your change. If you do "
-    "not see them, they are under the *. (< and > mean: the * is out of the picture.) What does "
+    "not see one of them, another mark covers it, or it is out of the picture. (< and > mean: the "
+    "* is out of the picture.) What does "
     "your change do to the *? Is the * right: is it always on the o?", "")
 CHANGED_FRAMES = Example("with other frames", {},
-    "An o is the true car. If you do not see it, it is under the *. What does your change do to "
-    "the *? Is the * right: is it always on the o?", "")
+    "An o is the true car. If you do not see it, it is under the * or out of the picture. What "
+    "does your change do to the *? Is the * right: is it always on the o?", "")
 OWN_SCENE = Example(f"Your own scene (the examples are 0 to {max(EXAMPLES)})", {
     "show_exact_mark": True},
-    "The * is your car, and the o is the true car. Where you see no o, it is under the *. Does the "
-    "* stay on the o? Does it come to rest? (Set the scene by NAME=VALUE, as in a_mps2=-2. Without "
-    "settings the car stands still.)", "")
+    "The * is your car, and the o is the true car. Where you see no o, it is under the * or out of "
+    "the picture. Does the * stay on the o? Does it come to rest? (Set the scene by NAME=VALUE, as "
+    "in a_mps2=-2. Without settings the car stands still.)", "")
 
 # ==== Signals ===================================================================================
 # Ctrl-C, Ctrl-Z, kill and a closed terminal come as signals.
@@ -485,7 +486,7 @@ WHY_QUIT = {"x": "x was pressed", CTRL_C: "Ctrl-C was pressed", ESC: "Esc was pr
             CLOSED: "the window was closed", GONE: "the terminal is gone"}
 CTRL_S, CTRL_Q = "\x13", "\x11"  # a terminal knows them as hold, and go on
 BEGIN_KEYS = ("\r", "\n", CTRL_C)
-READING_S = 10.0  # enough for the question. p holds the text for slower readers.
+READING_S = 10.0  # enough for a short question. p holds the text for slower readers.
 READING_WITHOUT_KEYS_S = 3.0  # nobody can begin it earlier with Enter, so do not keep them
 LOOK_S = 0.05  # between two looks at the keys: too short to notice
 # Who begins a film by Ctrl-C is greeted with it, as in the lesson that this program follows.

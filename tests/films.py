@@ -43,7 +43,7 @@ def shown(words: str) -> Film:
     """What a command line with --fast shows. Empty lines part header, film and table."""
     with contextlib.redirect_stdout(io.StringIO()) as out:
         assert main([*words.split(), "--fast"]) == 0
-    header, frames, table = out.getvalue().split("\n\n")
+    header, frames, table = out.getvalue().split("\n\n", 2)
     *lines, ending = frames.splitlines()
     return Film(" ".join(header.split()), lines, ending, table.splitlines())
 

@@ -73,7 +73,7 @@ def test_in_a_narrow_terminal_lines_do_not_wrap_and_show_both_walls(
     monkeypatch.setenv("COLUMNS", str(columns))
     with contextlib.redirect_stdout(TextOfATerminal()) as out:
         main([*words.split(), "--fast", "--frames=60"])
-    _, film, _ = out.getvalue().split("\n\n")
+    _, film, _ = out.getvalue().split("\n\n", 2)
     lines = film.splitlines()[:-1]
     assert max(len(line) for line in lines) <= columns
     assert len(wall_columns(lines)) == 2
@@ -92,6 +92,6 @@ def test_the_film_and_its_table_are_as_long_in_a_narrow_terminal(
         monkeypatch.setenv("COLUMNS", str(columns))
         with contextlib.redirect_stdout(TextOfATerminal()) as out:
             main(["1", "m_to_px=500", "--fast"])
-        _, film, table = out.getvalue().split("\n\n")
+        _, film, table = out.getvalue().split("\n\n", 2)
         rows.append((film.count("\n"), re.findall(r"rest from [0-9.]+ s", table)))
     assert rows[0] == rows[1]
