@@ -109,8 +109,8 @@ MOTIONS = {"forward": forward, "backward": backward, "exact": exact}
 #
 # A collision is found when a move has ended beyond a wall. Then a correction changes the velocity
 # and, except with none, the place. (The lesson that this program follows calls it a stickiness
-# correction, because without a good one the car may stick in the wall.) A correction serves both
-# walls. For this, depth, velocity and acceleration count as positive into the wall:
+# correction, because without a good one the car may stick in the wall.) The same correction works
+# at both walls, because all three numbers that it gets count as positive into the wall:
 #
 #     depth_m       how far the car is beyond the wall. In front of the wall, depth_m is negative.
 #     inward_mps    the velocity of the car. It is positive if the car moves into the wall.
@@ -201,17 +201,16 @@ def rewind(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> 
         collision is found: a missed event (example 18).
         In a frame in which the car should cross the whole track, it may be thrown out.
     """
-    # How long ago did the car pass the wall, and how fast? Let time run backwards, and count out
-    # of the wall. If time is reversed, a velocity changes its sign, and an acceleration does not.
-    # If the direction is reversed, both change their signs. So the velocity is inward_mps again,
-    # and the acceleration is -inward_mps2. In the drawn collision the car passed the wall 0.030 s
-    # ago, at 2.41 m/s.
+    # How long ago did the car pass the wall, and how fast? Run the film backwards: the car has
+    # depth_m to go, out of the wall, and begins with the velocity inward_mps. The acceleration is
+    # the same in a film that runs backwards, but counted out of the wall it is -inward_mps2. In the
+    # drawn collision the car passed the wall 0.030 s ago, at 2.41 m/s.
     late_s, met_mps = arrival(depth_m, inward_mps, -inward_mps2)
     # Run it forwards again, from the wall, after the bounce, for the same time.
     new_depth_m, new_inward_mps = exact(0.0, -CR * met_mps, inward_mps2, late_s)
     # If the car is in the wall again, there was a second bounce. Put the car on the wall, and leave
-    # the second bounce to the next frame. (It has become faster in the wall, and keeps this speed.
-    # So it has too much energy, but little of it if frames are short.)
+    # the second bounce to the next frame. (In the wall it has become faster, and it keeps this
+    # speed. That is too much energy, but little if frames are short.)
     return min(new_depth_m, 0.0), new_inward_mps
 
 CORRECTIONS = {"none": none, "surface": surface, "rebound": rebound, "conserve": conserve,
@@ -253,7 +252,7 @@ class Track:
         """Whether x_m is a place on the track, and not beyond a wall."""
         return self.left_edge_m <= x_m <= self.right_edge_m
 
-    def to_track(self, x_m: float) -> float:
+    def nearest_m(self, x_m: float) -> float:
         """The place on the track that is nearest to x_m: x_m itself, or the wall it is beyond."""
         return min(max(x_m, self.left_edge_m), self.right_edge_m)
 
@@ -281,7 +280,7 @@ def step(track: Track, x_m: float, v_mps: float, dt_s: float) -> Moved:
         return free_m, free_mps, None
     # The move ended beyond a wall. Count from this wall, and into it: at the right wall this is to
     # the right, too, so the signs stay. At the left wall they change.
-    wall_m = track.to_track(free_m)
+    wall_m = track.nearest_m(free_m)
     sign = 1 if free_m > wall_m else -1
     depth_m = sign * (free_m - wall_m)
     inward_mps = sign * free_mps
@@ -415,8 +414,8 @@ class Rest:
     at most about 3 mm above its floor. (Its velocity does not count: with some methods a car that
     lies still has one.)
         How low?    At most a 650th of the height that the car can reach with the energy of its
-                    start. On the whole of the lesson's track this is 3 mm. And at most half a
-                    column of the film.
+                    start (if it has none: of the track). On the whole of the lesson's track
+                    this is 3 mm. And at most half a column of the film.
         How long?   At least as long as a hop to this height lasts. If the acceleration is small,
                     this is more than 0.3 s. A car that only passes by is gone before.
     Without an acceleration the car has no floor. Then its velocity must be 0.
@@ -426,7 +425,7 @@ class Rest:
         self.track = track
         g_mps2 = abs(track.a_mps2)
         reach_m = track.length_m()
-        energy = track.energy(track.to_track(track.x_m), track.v_mps)
+        energy = track.energy(track.nearest_m(track.x_m), track.v_mps)
         if energy > 0 and g_mps2 > 0:
             reach_m = min(reach_m, energy / g_mps2)  # from E = g * height
         self.low_m = min(reach_m / 650, column_m / 2)
@@ -487,7 +486,7 @@ class Pace:
     def __init__(self, scene: Scene, keys: Keys | None) -> None:
         self.scene = scene
         self.keys = keys
-        # Pretend that frame 1 began one frame ago. So frame 1 is due now.
+        # As if a frame had been shown one frame ago. So frame 1 is due now.
         self.shown_s = time.perf_counter() - planned_length_s(scene, 1)
         self.due_s = self.shown_s
 
@@ -495,7 +494,7 @@ class Pace:
         """Wait until the frame of this number is due. Returns its dt_s, and the rate that d shows.
 
         t_s is how much time has passed in the film, for the text of a pause. Without keys (--fast)
-        nothing waits, and all is as planned.
+        nothing waits: dt_s is as planned, and the rate is fps_target.
         """
         dt_s, fps = planned_dt_s(self.scene, number), self.scene.fps_target
         if self.keys is None:
@@ -537,8 +536,7 @@ def run(cars: dict[str, Car], scene: Scene, view: View, max_frames: int,
         # Draw the frame.
         print(view.line(cars, fps))
         # Is it over?
-        is_at_rest = rest.look(car.frames[-1])
-        if scene.auto_off and is_at_rest:
+        if rest.look(car.frames[-1]) and scene.auto_off:
             why = "the car is at rest"
             break
     frames, t_s = len(car.frames) - 1, car.frames[-1].t_s
@@ -570,9 +568,9 @@ def next_bounce(h_m: float, rise_mps: float, g_mps2: float,
 
     h_m is the height of the ball, and rise_mps is its velocity, upwards.
     """
-    # To rise to the ceiling takes the energy g * (room - h). If the ball can only just do it,
-    # round-off would decide. So here it meets the ceiling only if it could rise above it, by GRAZE
-    # times the height of the room.
+    # To rise to the ceiling takes the energy g * (room - h). For a ball that only just
+    # gets there, round-off would decide. So here it meets the ceiling only if it could rise higher,
+    # by GRAZE times the height of the room.
     energy_to_meet_it = g_mps2 * (room_m - h_m + GRAZE * room_m)
     if rise_mps > 0 and rise_mps * rise_mps / 2 >= energy_to_meet_it:
         flight_s, speed_mps = arrival(room_m - h_m, rise_mps, -g_mps2)
@@ -615,8 +613,8 @@ def replay(track: Track, x_m: float, v_mps: float, dt_s: float) -> Moved:
 
     It takes and returns what step() does, and is right for a frame of any length.
     """
-    # A car that has moved one way only, and is still on the track, has met no wall. This quick way
-    # out is not needed, but most frames of a flight take it, and it is several times as fast.
+    # A car that has moved one way only, and is still on the track, has met no wall. The lines below
+    # would find the same. But most frames of a flight end here, which is several times as fast.
     free_m, free_mps = exact(x_m, v_mps, track.a_mps2, dt_s)
     has_turned = v_mps * free_mps < 0  # its velocity has changed its sign
     if track.left_edge_m <= free_m <= track.right_edge_m and not has_turned:
@@ -624,17 +622,17 @@ def replay(track: Track, x_m: float, v_mps: float, dt_s: float) -> Moved:
     # Turn the track into a room, and back again. up is the direction away from the floor.
     up = -1 if track.a_mps2 > 0 else 1
     floor_m = track.floor_m()
-    h_m = up * (track.to_track(x_m) - floor_m)
+    h_m = up * (track.nearest_m(x_m) - floor_m)
     h_m, rise_mps, has_bounced = follow(h_m, up * v_mps, abs(track.a_mps2), track.length_m(),
                                         track.CR, dt_s)
-    x_m = track.to_track(floor_m + up * h_m)  # round-off must not leave it beyond a wall
+    x_m = track.nearest_m(floor_m + up * h_m)  # round-off must not leave it beyond a wall
     if not has_bounced:
         return x_m, up * rise_mps, None
     return x_m, up * rise_mps, free_m
 
 def truth_of(track: Track) -> Track:
     """The track of the true car. A start beyond a wall is moved to the wall."""
-    return replace(track, motion="exact", correction="replay", x_m=track.to_track(track.x_m))
+    return replace(track, motion="exact", correction="replay", x_m=track.nearest_m(track.x_m))
 
 # Which method should I take? A method is a motion and a correction. Of the fourteen possible ones,
 # example 21 and the chart compare five.
@@ -671,7 +669,7 @@ THE_TRUTH = "e"  # the true car is moved by this method
 
 def by_five_methods(track: Track) -> dict[str, Track]:
     """The track with each of the five methods, by their letters. All start on the track."""
-    track = replace(track, x_m=track.to_track(track.x_m))
+    track = replace(track, x_m=track.nearest_m(track.x_m))
     return {letter: replace(track, **method) for letter, method in METHODS.items()}
 
 def method_text(track: Track) -> str:
@@ -687,7 +685,7 @@ LEGEND = {letter: f"{letter}: {method['motion']} + {method['correction']}"
 SPAN_S = 20  # of simulated time: eight bounces in example 10, so errors have time to grow
 RUNS = 10  # of each method: with fewer, the largest error would be less reliable
 
-# These three are for all that is printed from here on.
+# PYTHON, say() and track_text() are for all that is printed from here on.
 
 PYTHON = os.path.basename(sys.executable).removesuffix(".exe")  # what runs this: python3, say
 
@@ -712,7 +710,7 @@ def simulate(track: Track, lengths_s: list[float]) -> list[Frame]:
 def beside(frames: list[Frame], track: Track) -> list[Frame]:
     """A car on this track that starts as those frames do, and makes frames of the same lengths."""
     start = frames[0]
-    track = replace(track, x_m=track.to_track(start.x_m), v_mps=start.v_mps)
+    track = replace(track, x_m=track.nearest_m(start.x_m), v_mps=start.v_mps)
     return simulate(track, [frame.dt_s for frame in frames[1:]])
 
 def furthest_m(frames: list[Frame], true_frames: list[Frame]) -> float:
@@ -769,10 +767,9 @@ def measured(track: Track, fps: int) -> dict[str, Point]:
     points = {}
     for letter, method_track in tracks.items():
         error_m = 0.0
-        if letter != THE_TRUTH:
-            for true_frames in true_runs:
-                frames = beside(true_frames, method_track)
-                error_m = max(error_m, furthest_m(frames, true_frames))
+        for true_frames in true_runs:
+            frames = beside(true_frames, method_track)
+            error_m = max(error_m, furthest_m(frames, true_frames))
         points[letter] = Point(fps, error_m, costs[letter])
     return points
 
@@ -823,10 +820,8 @@ def print_picture(series: Series, column_m: float) -> None:
         for point in points:
             row = round(ROWS_A_DECADE * math.log10(point.cost_us))
             place = row, error_column(point.error_m)
-            if place in letters and letters[place] != letter:
-                letters[place] = "+"  # another letter stands there already
-            else:
-                letters[place] = letter
+            there = letters.get(place, letter)  # what stands there already, if anything
+            letters[place] = letter if there == letter else "+"
     rows = [row for row, _ in letters]
     limit = error_column(column_m)
     print("a column of the film |".rjust(10 + limit + 1))
@@ -868,11 +863,11 @@ def chart(scene: Scene, words: str) -> None:
     say(f"Speed against accuracy. Scene {words}: {track_text(scene.track)}")
     say("Which method is the cheapest that stays within a column of the film? Each runs "
         f"{RUNS} times for {SPAN_S} simulated seconds in equal frames, from {RUNS} moments of the "
-        "motion. Error: the largest distance from the true car. (Method e has none, because the "
-        "true car is moved by it.) Cost: the time that a simulated second takes, in us "
-        "(microseconds). Order 1: half the dt makes half the error. Order 2: it makes a quarter. "
-        "(The order is taken from the errors below a tenth of the track and above round-off. It "
-        "is none if they are all round-off, and ? if fewer than three are left.)")
+        "motion (the first is the film's). Error: the largest distance from the true car. (Method "
+        "e has none, because the true car is moved by it.) Cost: the time that a simulated second "
+        "takes, in us (microseconds). Order 1: half the dt makes half the error. Order 2: it makes "
+        "a quarter. (The order is taken from the errors below a tenth of the track and above "
+        "round-off. It is none if they are all round-off, and ? if fewer than three are left.)")
     say(", ".join(LEGEND.values()))
     print()
     print(" " * 4 + "".join([letter.rjust(11) + " " * 4 for letter in METHODS]).rstrip())
@@ -906,12 +901,12 @@ MAP_FPS = [1, 2, 5, 10, 30, 60, 120, 240, 480]
 LATE_S = 15  # here the last 5 s of a run begin
 VERDICTS = {  # from the worst to the best: a letter, its name, and what it means
     "X": ("gets out", "further beyond a wall than the track is long"),
-    "S": ("is stuck", "beyond the same wall in all frames of the last 5 s, at least ten"),
-    "H": ("hops on", "not at rest at the end, and the true car lies still for the last 5 s"),
-    "W": ("has a wrong energy", "some runs have a G, others an L"),  # only in the map: worst_of()
-    "G": ("has too much energy", "on average in the last 5 s by over 1 % of the start's"),
-    "L": ("has too little energy", "on average in the last 5 s by over 1 % of the start's"),
-    "P": ("was off, with the right energy", "over a column off, energy right at the end"),
+    "S": ("is stuck", "beyond the same wall in all frames from 15 to 20 s, at least ten"),
+    "H": ("hops on", "not at rest at 20 s, and the true car lies still from 15 s on"),
+    "W": ("has a wrong energy", "a G in some runs, an L in others"),  # only in the map: worst_of()
+    "G": ("has too much energy", "on average from 15 to 20 s, by over 1 % of the start's"),
+    "L": ("has too little energy", "on average from 15 to 20 s, by over 1 % of the start's"),
+    "P": ("was off, with the right energy", "over a column off, energy right from 15 s on"),
     "-": ("is right", "never over a column away from the true car"),
 }
 FROM_WORST_TO_BEST = list(VERDICTS)
@@ -933,10 +928,10 @@ FROM_WORST_TO_BEST = list(VERDICTS)
 #     up to the other wall (G). At CR below 1 it loses (1 - CR) w in each bounce. If CR is not too
 #     small, a slow car gets in each hop as much as it loses, and hops for ever (H). Rebound gives
 #     even more.
-#     With backward + surface each hop of two frames or more ends a frame earlier. So k is above -1,
-#     and at most 0. If k is below 0, the next hop is shorter, even at CR = 1. In the end the hops
-#     have one frame: the car lies on its floor (L). If k is 0, as after a start at v = 0, the hops
-#     at CR = 1 stay as long as they are.
+#     With backward + surface a hop ends one frame earlier than with exact + surface, if it has two
+#     frames or more there. So k is above -1, and at most 0. If k is below 0, the next hop is
+#     shorter, even at CR = 1. In the end the hops have one frame: the car lies on its floor (L). If
+#     k is 0, as after a start at v = 0, the hops at CR = 1 stay as long as they are.
 # The page .github/law.md has the other methods, the proofs and the exceptions.
 
 def verdict(track: Track, frames: list[Frame], true_frames: list[Frame], column_m: float) -> str:
@@ -981,10 +976,10 @@ def stability(scene: Scene, words: str) -> None:
     column_m = scene.column_m()
     say(f"Stability. Scene {words}: {track_text(scene.track)}")
     say(f"Which methods are right, and from which frame rate on? Each runs {RUNS} times for "
-        f"{SPAN_S} simulated seconds in equal frames, from {RUNS} moments of the motion. A capital "
-        "letter: all runs have it. A small letter: the worst runs have it, and others are better. "
-        "The key goes from the worst to the best. Only a car that was over a column off at some "
-        "time can have an H, W, G, L or P.")
+        f"{SPAN_S} simulated seconds in equal frames, from {RUNS} moments of the motion (the first "
+        "is the film's). A capital letter: all runs have it. A small letter: the worst runs have "
+        "it, and others are better. The key goes from the worst to the best. Only a car that was "
+        "over a column off at some time can have an H, W, G, L or P.")
     print(f"Next: {PYTHON} airtrack.py 20 (why hops get too much energy), or 19 (too little)")
     print()
     print(" " * 20 + "".join([str(fps).rjust(6) for fps in MAP_FPS]) + " FPS")
@@ -1110,16 +1105,15 @@ def film_verdict(car: Car, scene: Scene) -> str:
     judged.frames = list(car.frames)
     while judged.frames[-1].t_s < SPAN_S - ROUND_OFF_S:
         judged.move(planned_dt_s(scene, len(judged.frames)))
-    # Up to the frame in which the time is over.
-    count = 1 + sum(frame.t_s < SPAN_S - ROUND_OFF_S for frame in judged.frames)
-    frames = judged.frames[:count]
+    # The frames that began before the time was over.
+    frames = [each for each in judged.frames if each.t_s - each.dt_s < SPAN_S - ROUND_OFF_S]
     return verdict(car.track, frames, beside(frames, truth_of(car.track)), scene.column_m())
 
 def tell_cars(cars: dict[str, Car], scene: Scene, unchanged: Scene | None) -> None:
-    """Print a table of the cars, what became of them, and whether the * is right."""
+    """Print two tables of the cars, and whether the * is right."""
     column_m = scene.column_m()
     rows, ends = [], []
-    answer = "By definition: it is the true car."
+    verdicts = {}  # of the cars that are no true cars, by their marks
     true_frames = {}  # of the true cars, by their tracks: most cars have the same true car
     for mark, car in reversed(cars.items()):
         off = "the truth"
@@ -1129,19 +1123,11 @@ def tell_cars(cars: dict[str, Car], scene: Scene, unchanged: Scene | None) -> No
             if truth not in true_frames:
                 true_frames[truth] = beside(car.frames, truth)
             off = off_text(car, true_frames[truth])
-            name, meaning = VERDICTS[film_verdict(car, scene)]
+            verdicts[mark] = film_verdict(car, scene)
+            name, _ = VERDICTS[verdicts[mark]]
             end = f"{end + '; ':50}{name}"
-            if mark == "*":
-                yes_or_no = "Yes" if name == "is right" else "No"
-                is_short = car.frames[-1].t_s < SPAN_S - ROUND_OFF_S
-                computed = " (computed on after the film's end)" if is_short else ""
-                answer = f"{yes_or_no}. In its first {SPAN_S} s{computed} it {name}: {meaning}."
         rows.append(f"{mark} {method_text(car.track):20}{off:>15}{energies_text(car)}")
         ends.append(end)
-    if unchanged is not None:
-        before = cars.get("+", Car(unchanged.track))  # with other frames there is no +
-        name, _ = VERDICTS[film_verdict(before, unchanged)]
-        answer += f" Without your change it {name}."
     print()
     print("                        furthest from     energy in J/kg (0: lies at its floor)")
     print("                         its true car     first     least      most      last")
@@ -1149,6 +1135,17 @@ def tell_cars(cars: dict[str, Car], scene: Scene, unchanged: Scene | None) -> No
     print()
     print(f"  at the film's end;     each hop in frames;      verdict on the first {SPAN_S} s")
     print(*ends, sep="\n")
+    answer = "By definition: it is the true car."
+    if "*" in verdicts:
+        name, meaning = VERDICTS[verdicts["*"]]
+        yes_or_no = "Yes" if verdicts["*"] == "-" else "No"
+        is_short = cars["*"].frames[-1].t_s < SPAN_S - ROUND_OFF_S
+        computed = " (computed on after the film's end)" if is_short else ""
+        answer = f"{yes_or_no}. In its first {SPAN_S} s{computed} it {name}: {meaning}."
+    if unchanged is not None:
+        before = cars.get("+", Car(unchanged.track))  # with other frames there is no +
+        name, _ = VERDICTS[film_verdict(before, unchanged)]
+        answer += f" Without your change it {name}."
     say(f"Is the * right? {answer} (A column is 1/m_to_px, {column_m:.2g} m.)")
 
 def film(wanted: Film) -> None:
@@ -1320,7 +1317,8 @@ def epilog() -> str:
 def frames_number(text: str) -> int:
     """The N of --frames N."""
     if not re.fullmatch("[0-9]{1,9}", text) or int(text) == 0:
-        raise argparse.ArgumentTypeError(f"N must be a whole number from 1 up, not {text}")
+        raise argparse.ArgumentTypeError(
+            f"N must be a whole number from 1 to 999999999, not {text}")
     return int(text)
 
 def make_parser() -> argparse.ArgumentParser:
@@ -1330,7 +1328,8 @@ def make_parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter)  # it leaves our lines as they are
     parser.add_argument("words", nargs="*", metavar="WORD", help="see above")
     parser.add_argument("-d", dest="details", action="store_true", help="as the word d")
-    parser.add_argument("--fast", action="store_true", help="no waiting, keys, colours, last text")
+    parser.add_argument("--fast", action="store_true",
+                        help="no waiting, no keys, no colours, no text after the tables")
     parser.add_argument("--frames", metavar="N", type=frames_number,
                         help=f"stop after N frames; without it, after {FRAMES}")
     parser.add_argument("-help", action="help", help=argparse.SUPPRESS)
@@ -1391,7 +1390,7 @@ def film_of(words: Words, options: argparse.Namespace) -> Film:
         settings = {"show_exact_mark": True} | settings
         texts = CHANGED_FRAMES
         unchanged = scene_of(example.settings)
-        if not changes_frames:  # otherwise a + would need frames of its own
+        if not changes_frames:  # a + is moved in the same frames as the *
             texts = CHANGED
             plus = unchanged.track
     has_details = words.has_d or options.details or example.has_details
@@ -1411,7 +1410,7 @@ def compared_scene(words: Words, options: argparse.Namespace) -> Scene:
     settings = EXAMPLES.get(words.number, OWN_SCENE).settings | changes
     scene = scene_of({name: settings[name] for name in COMPARED if name in settings})
     # The truth of a start beyond a wall is a start at the wall.
-    track = replace(scene.track, x_m=scene.track.to_track(scene.track.x_m))
+    track = replace(scene.track, x_m=scene.track.nearest_m(scene.track.x_m))
     return replace(scene, track=track)
 
 def show(options: argparse.Namespace, unknown_options: list[str]) -> None:

@@ -273,11 +273,11 @@ EXAMPLES = {
 CHANGED = Example("changed", {},
     "An o is the true car of the changed scene. A + is the car without your change. If you do "
     "not see one of them, another mark covers it, or it is out of the picture. (< and > mean: the "
-    "* is out of the picture.) What does "
-    "your change do to the *? Is the * right: is it always on the o?", "")
+    "* is out of the picture.) What does your change do to the *? Is the * right: is it always "
+    "within a column of the o?", "")
 CHANGED_FRAMES = Example("with other frames", {},
     "An o is the true car. If you do not see it, it is under the * or out of the picture. What "
-    "does your change do to the *? Is the * right: is it always on the o?", "")
+    "does your change do to the *? Is the * right: is it always within a column of the o?", "")
 OWN_SCENE = Example(f"Your own scene (the examples are 0 to {max(EXAMPLES)})", {
     "show_exact_mark": True},
     "The * is your car, and the o is the true car. Where you see no o, it is under the * or out of "
