@@ -167,6 +167,13 @@ def test_a_car_is_not_at_rest_before_its_last_hop_above_the_limit_has_come_down(
     assert began is not None
     assert last_bounce_s - 0.6 < float(began) < last_bounce_s
 
+@pytest.mark.parametrize(("beyond_m", "wall_m", "a_mps2"), [(0, 0.25, -2), (2.45, 2.2, 2)])
+def test_after_a_start_beyond_its_floor_a_car_is_low_where_it_is_after_one_on_it(
+        beyond_m: float, wall_m: float, a_mps2: float) -> None:
+    starts = [airtrack.Track(x_m=x_m, v_mps=0.9, a_mps2=a_mps2) for x_m in (beyond_m, wall_m)]
+    low_m, low_of_the_other_m = (airtrack.Rest(track, 1.0).low_m for track in starts)
+    assert low_m == low_of_the_other_m == pytest.approx(0.9**2 / 2 / 2 / 650)
+
 def test_a_car_that_takes_very_long_to_come_to_rest_is_asked_in_each_frame_at_no_cost() -> None:
     # With 1e-6 m/s^2 a hop of 3 mm lasts 155 s, so 155 000 frames: pytest's timeout would end it.
     words = "99 x_m=0.25 a_mps2=-1e-6 fps_target=1000 motion=exact correction=surface"
@@ -238,6 +245,13 @@ def test_after_a_film_it_is_told_if_the_car_is_right_and_if_it_was_without_the_c
     assert verdict in answer
     without_change = re.findall(r"Without your change it ([^.]*)\.", answer)
     assert without_change == ([without] if without else [])
+
+@pytest.mark.parametrize("fps", [3, 7, 10])  # their dt add up to a little under 20 s, under, over
+def test_after_20_s_the_answer_is_that_of_a_longer_film(fps: int) -> None:
+    words = f"99 x_m=1 v_mps=1 CR=1 fps_target={fps}"
+    shorter, whole, longer = (plain("\n".join(shown(f"{words} --frames={frames}").table)).partition(
+        "Is the * right?")[2] for frames in (20 * fps - 1, 20 * fps, 30 * fps))
+    assert shorter != whole == longer
 
 def test_after_a_changed_film_the_map_is_advised_by_a_command_for_the_same_scene(
         play: Play, monkeypatch: pytest.MonkeyPatch) -> None:

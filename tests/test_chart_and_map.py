@@ -2,6 +2,7 @@
 
 import math
 import re
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -231,7 +232,17 @@ def test_a_car_that_is_now_beyond_the_one_wall_and_now_beyond_the_other_is_not_s
     states[-1] = (-0.1, 1.0)
     assert verdict(TRACK, each_quarter_s(states), each_quarter_s([FLIES] * 81), 0.01) != "S"
 
-@pytest.mark.parametrize(("frames", "letter"), [(8, "L"), (40, "S")])  # 3 and 11 of them are late
+@pytest.mark.parametrize("place_m", [-10, 10])
+def test_a_car_gets_out_by_the_length_of_its_track_wherever_the_track_is(place_m: float) -> None:
+    track = replace(TRACK, x_m=0.5 + place_m, left_edge_m=place_m, right_edge_m=1 + place_m)
+    for x_m, letter in [(1.99, "P"), (2.01, "X"), (-0.99, "P"), (-1.01, "X")]:
+        frames, true_frames = ([
+            frame._replace(x_m=frame.x_m + place_m) for frame in each_quarter_s(states)]
+            for states in ([FLIES, (x_m, 1.0), *[FLIES] * 79], [FLIES] * 81))
+        assert verdict(track, frames, true_frames, 0.01) == letter
+
+@pytest.mark.parametrize(("frames", "letter"), [
+    (8, "L"), (35, "L"), (36, "S"), (40, "S")])  # 3, 9, 10 and 11 of them are late
 def test_fewer_than_ten_frames_do_not_show_that_a_car_is_stuck(frames: int, letter: str) -> None:
     stuck = [Frame(20 * n / frames, 0.0, -0.1, 0.0, None) for n in range(frames + 1)]
     flying = [frame._replace(x_m=0.5, v_mps=1.0) for frame in stuck]

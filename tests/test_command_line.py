@@ -92,6 +92,12 @@ def test_without_a_number_it_is_example_1_and_any_whole_number_is_a_scene(
     assert shown(f"{words} --frames=1").intro.startswith(title)
     assert "jitter=0.25" in shown("9 --frames=1").intro  # all that moves the car is told
 
+def test_words_and_true_and_false_may_be_typed_in_small_or_large_letters() -> None:
+    film = shown("99 motion=EXACT correction=Replay show_start_mark=tRUE --frames=3")
+    same = shown("99 motion=exact correction=replay show_start_mark=True --frames=3")
+    assert film.lines == same.lines
+    assert film.table == same.table
+
 @pytest.mark.parametrize("command", ["chart", "stability"])
 def test_a_command_in_any_place_is_for_example_12_or_another_from_a_start_on_the_track(
         command: str, monkeypatch: pytest.MonkeyPatch) -> None:
