@@ -339,6 +339,10 @@ class Scene:
         """How wide a column of the film is."""
         return 1 / self.m_to_px
 
+    def first_m(self) -> float:
+        """The place of the first column: 0 or, further left, the left wall."""
+        return min(0.0, self.track.left_edge_m)
+
 def render_track(scene: Scene, places_m: dict[str, float], mark_m: float | None) -> str:
     """Draw a frame: one line of scene.width_px columns. places_m has the cars by their marks.
 
@@ -355,7 +359,7 @@ def render_track(scene: Scene, places_m: dict[str, float], mark_m: float | None)
     marks.append(("|", track.right_edge_m))
     marks.extend(places_m.items())
     line = [" "] * scene.width_px
-    first_m = min(0.0, track.left_edge_m)  # the picture begins at 0 or, further left, at the wall
+    first_m = scene.first_m()
     for mark, x_m in marks:
         column = round((x_m - first_m) * scene.m_to_px)
         if 0 <= column < scene.width_px:
@@ -630,10 +634,6 @@ def replay(track: Track, x_m: float, v_mps: float, dt_s: float) -> Moved:
         return x_m, up * rise_mps, None
     return x_m, up * rise_mps, free_m
 
-def truth_of(track: Track) -> Track:
-    """The track of the true car. A start beyond a wall is moved to the wall."""
-    return replace(track, motion="exact", correction="replay", x_m=track.nearest_m(track.x_m))
-
 # Which method should I take? A method is a motion and a correction. Of the fourteen possible ones,
 # example 21 and the chart compare five.
 #
@@ -668,16 +668,23 @@ METHODS: dict[str, dict[str, Any]] = {
 THE_TRUTH = "e"  # the true car is moved by this method
 
 def by_five_methods(track: Track) -> dict[str, Track]:
-    """The track with each of the five methods, by their letters. All start on the track."""
+    """The track with each of the five methods, by their letters.
+
+    All start on the track: a start beyond a wall is moved to the wall.
+    """
     track = replace(track, x_m=track.nearest_m(track.x_m))
     return {letter: replace(track, **method) for letter, method in METHODS.items()}
+
+def truth_of(track: Track) -> Track:
+    """The track of the true car."""
+    return by_five_methods(track)[THE_TRUTH]
 
 def method_text(track: Track) -> str:
     """The method in words, as in backward + rebound."""
     return f"{track.motion} + {track.correction}"
 
-LEGEND = {letter: f"{letter}: {method['motion']} + {method['correction']}"
-          for letter, method in METHODS.items()}
+LEGEND = {letter: f"{letter}: {method_text(track)}"
+          for letter, track in by_five_methods(Track()).items()}
 
 # ==== 7. The chart: speed against accuracy ======================================================
 # What does each method cost, and how wrong is it?
@@ -1278,7 +1285,7 @@ def scene_of(settings: dict[str, Any]) -> Scene:
     if "m_to_px" in settings:
         return scene
     # Nobody chose a zoom: take one that shows the right wall.
-    shown_m = track.right_edge_m - min(0.0, track.left_edge_m)
+    shown_m = track.right_edge_m - scene.first_m()
     return replace(scene, m_to_px=min(scene.m_to_px, (scene.width_px - 1) / shown_m))
 
 def fault_of(word: str) -> str:

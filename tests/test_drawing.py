@@ -66,32 +66,31 @@ class TextOfATerminal(io.StringIO):
     def isatty(self) -> bool:
         return True
 
+def on_a_terminal(words: str, columns: int, monkeypatch: pytest.MonkeyPatch) -> str:
+    """What a command line with --fast prints on a terminal of so many columns."""
+    monkeypatch.setenv("COLUMNS", str(columns))
+    with contextlib.redirect_stdout(TextOfATerminal()) as out:
+        assert main([*words.split(), "--fast"]) == 0
+    return out.getvalue()
+
 @pytest.mark.parametrize("columns", [60, 80, 100, 250])
 @pytest.mark.parametrize("words", ["1", "1 d", "0", "17 d", "99 right_edge_m=40 x_m=9 d"])
 def test_in_a_narrow_terminal_lines_do_not_wrap_and_show_both_walls(
         words: str, columns: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("COLUMNS", str(columns))
-    with contextlib.redirect_stdout(TextOfATerminal()) as out:
-        main([*words.split(), "--fast", "--frames=60"])
-    _, film, _ = out.getvalue().split("\n\n", 2)
+    _, film, _ = on_a_terminal(f"{words} --frames=60", columns, monkeypatch).split("\n\n", 2)
     lines = film.splitlines()[:-1]
     assert max(len(line) for line in lines) <= columns
     assert len(wall_columns(lines)) == 2
 
 def test_the_smallest_zoom_is_drawn_in_a_narrow_terminal_too(
         monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("COLUMNS", "60")
-    with contextlib.redirect_stdout(TextOfATerminal()):
-        assert main(["9", "m_to_px=0.0001", "--fast", "--frames=1"]) == 0
+    on_a_terminal("9 m_to_px=0.0001 --frames=1", 60, monkeypatch)
 
 def test_the_film_and_its_table_are_as_long_in_a_narrow_terminal(
         monkeypatch: pytest.MonkeyPatch) -> None:
     # A column is 2 mm. In 60 columns it is drawn wider.
     rows = []
     for columns in (60, 250):
-        monkeypatch.setenv("COLUMNS", str(columns))
-        with contextlib.redirect_stdout(TextOfATerminal()) as out:
-            main(["1", "m_to_px=500", "--fast"])
-        _, film, table = out.getvalue().split("\n\n", 2)
+        _, film, table = on_a_terminal("1 m_to_px=500", columns, monkeypatch).split("\n\n", 2)
         rows.append((film.count("\n"), re.findall(r"rest from [0-9.]+ s", table)))
     assert rows[0] == rows[1]
