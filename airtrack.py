@@ -3,25 +3,25 @@
 Each line is printed below the one before. So the film is a graph: position to
 the right, time downwards.
 
-Type any of these WORDs, in any order:
+Type some of these WORDs, in any order:
     EXAMPLE      the number of an example. Without it, a film shows example 1,
                  and chart and stability take example 12.
-    d            details after each line: position x, velocity v, frame rate FPS
-                 and, if the true car o is drawn, err: how far the car is to the
-                 right of the o
+    d            details at the end of each line: position x, velocity v, frame
+                 rate FPS and, if the true car o is drawn, err: how far the car is
+                 to the right of the o
     NAME=VALUE   a setting that replaces the example's own
-    chart        no film, but speed against accuracy: what five methods cost,
-                 and how wrong they are
+    chart        no film, but speed against accuracy: how much computing time
+                 five methods need, and how wrong they are
     stability    no film, but the map: at which frame rates each method fails
 
 For example: python airtrack.py 10 d CR=0.9
 
 In a film, * is the car and | is a wall. < or > is the car, too, when it is out
 of the picture. A 0 is where the car would be now without the wall that it met.
-A . is the start. o is the true car. a to e are the cars of five methods. If you
-change the car or the track of an example, + is the car without this change.
-(With other frames there is no +.) A table after the film says which cars are
-right. The wall to which a car is accelerated is called its floor.
+Some films also draw the start (.), the true car (o), or the cars of five methods
+(a to e). If you change the motion or the correction of an example, + is the car
+without this change. A table after the film says how far each car was from the
+true car. The wall to which a car is accelerated is called its floor.
 """
 # What is where?
 #     Sections 1 to 5    the demo: how a car moves and bounces, how a frame is drawn, and the main
@@ -29,25 +29,24 @@ right. The wall to which a car is accelerated is called its floor.
 #     Section 6          the truth, and a table: which method is good for what.
 #     Sections 7 and 8   how wrong the methods are: the chart and the map.
 #     Sections 9 and 10  what stands before and after a film, and the command line.
-# The file examples.py holds the numbered examples and the keys. The folder .github has pages: a
-# lesson, exercises, the law behind the map, and a cure for balls in games.
+# The file examples.py holds the numbered examples, and what the keyboard does. The folder .github
+# has pages: a lesson, exercises, the law behind the map, and a cure for balls in games.
 
 import argparse
 import difflib
 import math
 import os
-import re
 import shutil
 import sys
 import textwrap
 import time
-from contextlib import nullcontext
+from collections.abc import Iterator
+from contextlib import nullcontext, suppress
 from dataclasses import dataclass, field, fields, replace
-from itertools import pairwise
-from statistics import fmean, linear_regression
+from statistics import fmean
 from typing import Any, NamedTuple
 
-from examples import CHANGED, CHANGED_FRAMES, EXAMPLES, OWN_SCENE, Example, Keys, taken_keys
+from examples import CHANGED, EXAMPLES, OWN_SCENE, Example, Keys, taken_keys
 
 # ==== 1. Moving =================================================================================
 # Where is the car dt_s later, if there are no walls?
@@ -69,23 +68,24 @@ from examples import CHANGED, CHANGED_FRAMES, EXAMPLES, OWN_SCENE, Example, Keys
 State = tuple[float, float]  # x_m and v_mps
 
 def forward(x_m: float, v_mps: float, a_mps2: float, dt_s: float) -> State:
-    """Forward Euler: x + v dt, then v + a dt. Each step adds a^2 dt^2/2 to the energy E."""
+    """Forward Euler: x + v dt, then v + a dt. Each step adds a^2 dt^2/2 to v^2/2 - a x."""
     return x_m + v_mps * dt_s, v_mps + a_mps2 * dt_s
 
 def backward(x_m: float, v_mps: float, a_mps2: float, dt_s: float) -> State:
-    """Backward Euler: v + a dt, then x + v dt. Each step takes a^2 dt^2/2 from the energy E."""
+    """Backward Euler: v + a dt, then x + v dt. Each step takes a^2 dt^2/2 from v^2/2 - a x."""
     v_mps += a_mps2 * dt_s
     return x_m + v_mps * dt_s, v_mps
 
 def exact(x_m: float, v_mps: float, a_mps2: float, dt_s: float) -> State:
-    """Kinematics: x + v dt + a dt^2/2, and v + a dt. No step changes the energy E."""
+    """Kinematics: x + v dt + a dt^2/2, and v + a dt. No step changes v^2/2 - a x."""
     return x_m + v_mps * dt_s + a_mps2 * dt_s * dt_s / 2, v_mps + a_mps2 * dt_s
 
 def arrival(d_m: float, u_mps: float, a_mps2: float) -> tuple[float, float]:
-    """The other way round: when is a car at a place d_m ahead, and how fast? Returns t_s and w_mps.
+    """When is a car at a place d_m ahead, and how fast is it there? Returns t_s and w_mps.
 
-    u_mps is its velocity now. Here u_mps and a_mps2 are positive if they point to that place. The
-    car must be able to get there: with d = 1, u = 1 and a = -20 it is not.
+    exact() tells the place at a time. This tells the time at a place. u_mps is its velocity
+    now. Here u_mps and a_mps2 are positive if they point to that place. The car must be able to get
+    there: with d = 1, u = 1 and a = -20 it turns before.
     """
     # Energy gives the speed w there: w^2 = u^2 + 2 a d. Round-off may make w^2 negative.
     w_mps = math.sqrt(max(0.0, u_mps * u_mps + 2 * a_mps2 * d_m))
@@ -97,9 +97,9 @@ def arrival(d_m: float, u_mps: float, a_mps2: float) -> tuple[float, float]:
         t_s = (w_mps - u_mps) / a_mps2  # from w = u + a t. Here u <= 0, so w - u is a sum.
     return t_s, w_mps
 
-# If you write another motion, with the same arguments, name it here. Then you can watch it in
-# films, and the map has it. But three things are not for it:
-#     The true car o, the energies and conserve count on a constant acceleration.
+# If you write another motion, with the same arguments, add it to MOTIONS. The first line of its
+# docstring is shown by -h. Then you can watch it in films, and the map has it. But:
+#     The true car o, the energies and conserve are right only for a constant acceleration.
 #     The chart compares only METHODS (section 6).
 #     The corrections rewind and replay need the motion exact.
 MOTIONS = {"forward": forward, "backward": backward, "exact": exact}
@@ -110,7 +110,7 @@ MOTIONS = {"forward": forward, "backward": backward, "exact": exact}
 # A collision is found when a move has ended beyond a wall. Then a correction changes the velocity
 # and, except with none, the place. (The lesson that this program follows calls it a stickiness
 # correction, because without a good one the car may stick in the wall.) The same correction works
-# at both walls, because all three numbers that it gets count as positive into the wall:
+# at both walls, because it counts place, velocity and acceleration from the wall and into it:
 #
 #     depth_m       how far the car is beyond the wall. In front of the wall, depth_m is negative.
 #     inward_mps    the velocity of the car. It is positive if the car moves into the wall.
@@ -132,9 +132,10 @@ MOTIONS = {"forward": forward, "backward": backward, "exact": exact}
 #     rewind            *    |       0       -0.048      -1.33     1.86
 #
 # What is right? At the wall E is v^2/2. A bounce multiplies v by CR, so E by CR^2: 0.64 * 2.90 is
-# 1.86. None leaves the car in the wall. Surface and rebound put it on the track, but give it too
-# much energy. Conserve gives it the right energy. Rewind bounces it at the right moment, too. So of
-# these five only rewind puts the car where a true car is at the end of this frame.
+# 1.86. The correction none leaves the car in the wall, and takes too much energy from it. Surface
+# and rebound put it on the track, but leave it too much energy. Conserve leaves it the right
+# energy. Rewind bounces it at the right moment, too. So of these five only rewind puts the car
+# where a true car is at the end of this frame.
 #
 # The five corrections of this section take the same four arguments, and return a new depth_m and a
 # new inward_mps. So step() can call any of them.
@@ -144,14 +145,10 @@ Contact = tuple[float, float]  # depth_m and inward_mps
 def none(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> Contact:
     """Reverse the velocity, times CR, but leave the car beyond the wall, where it may be caught.
 
-    In example 3 the motion is backward, inward_mps2 is 1.5, dt is 1/30 s, and CR is 0.6. Rounded:
-        frame 46   The move ends 5.17 cm deep.   inward_mps changes from  2.30 to -1.38.
-        frame 47   The move ends 0.73 cm deep.   inward_mps changes from -1.33 to  0.80.
-        frame 48   The move ends 3.56 cm deep.   inward_mps changes from  0.85 to -0.51.
-    In frame 47 the car is still beyond the wall, because the bounce has slowed it. So its velocity
-    is reversed again, now into the wall. The same happens in frames 49, 51 and 53: the car is
-    caught, and the acceleration makes it sink. Such a car is said to stick. The other corrections
-    prevent this.
+    The bounce has slowed the car. So after the next frame it may still be beyond the wall. Then its
+    velocity is reversed again, now into the wall, and so on: the car is caught. With backward or
+    exact the acceleration makes it sink. Such a car is said to stick (example 3). The other
+    corrections prevent this.
     """
     return depth_m, -CR * inward_mps
 
@@ -159,8 +156,8 @@ def surface(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) ->
     """Put the car on the wall, and reverse its velocity, times CR.
 
     If the acceleration points into the wall, this lifts the car against the acceleration. A lift
-    should cost speed, but surface does not slow the car. So with the exact motion, and a CR above
-    0, the car has more energy than it should: in the drawn collision 2.88 J/kg instead of 1.86.
+    should cost speed, but here it costs none. So with the exact motion, and a CR above 0, the car
+    has more energy than it should: in the drawn collision 2.88 J/kg instead of 1.86.
     """
     return 0.0, -CR * inward_mps
 
@@ -176,7 +173,7 @@ def rebound(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) ->
     return -CR * depth_m, -CR * inward_mps
 
 def conserve(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> Contact:
-    """Put the car on the wall, as surface does, but with the speed that the energy allows.
+    """Put the car on the wall, with CR times the speed at which it passed the wall.
 
     With the exact motion the energy is right if the car bounces once in the frame, and the move
     ends beyond that wall. Only the moment is wrong: the car leaves the wall at the end of the
@@ -193,18 +190,14 @@ def rewind(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> 
 
     With the exact motion this is right if the car bounces once in the frame, and the move ends
     beyond that wall. So in example 10, where CR is 1, the car comes back to its start each time.
-    There are three faults:
-        In each frame the acceleration pushes a car that should lie still into its floor. Rewind
-        settles one bounce, and leaves the next one to the next frame. So the car keeps a velocity.
-        In irregular frames, or at CR = 1, it may go on to hop: in example 12 by some mm.
-        The car may turn beyond the wall, and be back on the track when the frame ends. Then no
-        collision is found: a missed event (example 18).
-        In a frame in which the car should cross the whole track, it may be thrown out.
+    But it settles only one bounce a frame. A car that comes to rest has infinitely many bounces in
+    one frame, so with rewind it may make tiny hops instead (example 12). And if a move crosses a
+    wall and comes back within a frame, no collision is found: the bounce is missed (example 18).
     """
-    # How long ago did the car pass the wall, and how fast? Run the film backwards: the car has
-    # depth_m to go, out of the wall, and begins with the velocity inward_mps. The acceleration is
-    # the same in a film that runs backwards, but counted out of the wall it is -inward_mps2. In the
-    # drawn collision the car passed the wall 0.030 s ago, at 2.41 m/s.
+    # How long ago did the car pass the wall, and how fast? Run the film backwards: the car goes
+    # depth_m out of the wall, and begins at the speed inward_mps. An acceleration into the wall
+    # slows it on this way, so its sign changes. In the drawn collision the car passed the wall
+    # 0.030 s ago, at 2.41 m/s.
     late_s, met_mps = arrival(depth_m, inward_mps, -inward_mps2)
     # Run it forwards again, from the wall, after the bounce, for the same time.
     new_depth_m, new_inward_mps = exact(0.0, -CR * met_mps, inward_mps2, late_s)
@@ -223,26 +216,22 @@ EXACT_ONLY = ["rewind", "replay"]  # they need the exact motion
 # ==== 3. A frame ================================================================================
 # How does the car get from one frame to the next?
 
-def a_number(default: float, meaning: str, least: float, largest: float) -> Any:
-    """A setting that is a number. The field keeps meaning and range for section 10, as metadata."""
-    return field(default=default, metadata={"meaning": meaning, "range": (least, largest)})
-
-def a_choice(default: Any, meaning: str, *choices: Any) -> Any:
-    """A setting that is one of several words, or True or False."""
-    return field(default=default, metadata={"meaning": meaning, "choices": choices})
+def setting(default: Any, meaning: str, *allowed: Any) -> Any:
+    """A setting. allowed: the words that it may be or, of a number, the least and the largest."""
+    return field(default=default, metadata={"meaning": meaning, "allowed": allowed})
 
 @dataclass(frozen=True)  # frozen: nothing can change it. replace() makes a changed copy.
 class Track:
     """The track and its car: all that the physics needs to know."""
 
-    x_m: float = a_number(1.1, "start position in m", -10_000, 10_000)
-    v_mps: float = a_number(0.0, "start velocity in m/s: below 0 to the left", -10_000, 10_000)
-    a_mps2: float = a_number(0.0, "acceleration in m/s^2: below 0 to the left", -10_000, 10_000)
-    left_edge_m: float = a_number(0.25, "position of the left wall in m", -10_000, 10_000)
-    right_edge_m: float = a_number(2.2, "position of the right wall in m", -10_000, 10_000)
-    CR: float = a_number(0.8, "speed after a bounce / speed before it", 0, 1)
-    motion: str = a_choice("backward", "how the car is moved", *MOTIONS)
-    correction: str = a_choice("rebound", "how a collision is settled", *ALL_CORRECTIONS)
+    x_m: float = setting(1.1, "start position in m", -10_000, 10_000)
+    v_mps: float = setting(0.0, "start velocity in m/s: below 0 to the left", -10_000, 10_000)
+    a_mps2: float = setting(0.0, "acceleration in m/s^2: below 0 to the left", -10_000, 10_000)
+    left_edge_m: float = setting(0.25, "position of the left wall in m", -10_000, 10_000)
+    right_edge_m: float = setting(2.2, "position of the right wall in m", -10_000, 10_000)
+    CR: float = setting(0.8, "speed after a bounce / speed before it", 0, 1)
+    motion: str = setting("backward", "how the car is moved", *MOTIONS)
+    correction: str = setting("rebound", "how a collision is settled", *ALL_CORRECTIONS)
 
     def length_m(self) -> float:
         """The distance between the walls."""
@@ -276,10 +265,10 @@ def step(track: Track, x_m: float, v_mps: float, dt_s: float) -> Moved:
     # Move the car as if there were no walls.
     move = MOTIONS[track.motion]
     free_m, free_mps = move(x_m, v_mps, track.a_mps2, dt_s)
-    if track.left_edge_m <= free_m <= track.right_edge_m:  # has_on_it(), but faster
+    if track.has_on_it(free_m):
         return free_m, free_mps, None
-    # The move ended beyond a wall. Count from this wall, and into it: at the right wall this is to
-    # the right, too, so the signs stay. At the left wall they change.
+    # The move ended beyond a wall. Count from this wall, and into it: to the right at the right
+    # wall (sign 1), and to the left at the left wall (sign -1).
     wall_m = track.nearest_m(free_m)
     sign = 1 if free_m > wall_m else -1
     depth_m = sign * (free_m - wall_m)
@@ -290,73 +279,50 @@ def step(track: Track, x_m: float, v_mps: float, dt_s: float) -> Moved:
     # Count from x = 0 and to the right again.
     return wall_m + sign * new_depth_m, sign * new_inward_mps, free_m
 
-class Frame(NamedTuple):
-    """A car at the end of a frame. mark_m is that of step()."""
-
-    t_s: float
-    dt_s: float  # how much time has passed in this frame
-    x_m: float
-    v_mps: float
-    mark_m: float | None
-
-class Car:
-    """A car on a track. It keeps its frames, so that one can tell later what happened."""
-
-    def __init__(self, track: Track) -> None:
-        self.track = track
-        self.frames = [Frame(0.0, 0.0, track.x_m, track.v_mps, None)]  # the start
-
-    def move(self, dt_s: float) -> None:
-        """Make a frame of dt_s, and keep it."""
-        last = self.frames[-1]
-        x_m, v_mps, mark_m = step(self.track, last.x_m, last.v_mps, dt_s)
-        self.frames.append(Frame(last.t_s + dt_s, dt_s, x_m, v_mps, mark_m))
-
 # ==== 4. Drawing ================================================================================
 # How does a frame become a line of text, and why text?
 #
-# With text there is nothing between the physics and the eye. A column of the line is a place in m,
-# counted from the left edge of the picture, times m_to_px, and rounded. Each line is printed below
-# the one before. So the film is the graph of the motion.
+# One line of code turns a place into a column: round((x_m - first_m) * m_to_px), where first_m is
+# the place of the first column. And what is printed stays on the screen: the whole motion is seen
+# at once, as a graph, and one may count its lines.
 
 @dataclass(frozen=True)
-class Scene:
-    """A track, and how it is filmed."""
+class Scene(Track):
+    """A track, and how it is filmed. It is a Track with more settings, so step() takes it, too."""
 
-    track: Track = Track()
-    fps_target: float = a_number(30.0, "frames a second, 1/dt", 0.1, 1000)
-    use_observed_dt: bool = a_choice(False, "dt is how long the frame lasted", False, True)
-    jitter: float = a_number(0.0, "frames are up to this part longer or shorter", 0, 0.9)
-    auto_off: bool = a_choice(True, "stop when the car is at rest", False, True)
-    m_to_px: float = a_number(55.0, "zoom in columns for each m", 0.0001, 1000)
-    width_px: int = a_number(135, "width of the picture in columns", 10, 1000)
-    show_start_mark: bool = a_choice(False, "draw a . at the start", False, True)
-    show_collision_mark: bool = a_choice(True, "draw a 0 where a move ended", False, True)
-    show_exact_mark: bool = a_choice(False, "draw an o for the true car", False, True)
-    show_methods: bool = a_choice(False, "draw a to e for five methods", False, True)
+    fps_target: float = setting(30.0, "frames a second, 1/dt", 0.1, 1000)
+    use_observed_dt: bool = setting(False, "dt is how long the frame lasted", False, True)
+    jitter: float = setting(0.0, "frames are up to this part longer or shorter", 0, 0.9)
+    auto_off: bool = setting(True, "stop when the car is at rest", False, True)
+    m_to_px: float = setting(55.0, "zoom in columns for each m", 0.0001, 1000)
+    width_px: int = setting(135, "width of the picture in columns", 10, 1000)
+    show_start_mark: bool = setting(False, "draw a . at the start", False, True)
+    show_collision_mark: bool = setting(True, "draw a 0 where a collision was found", False, True)
+    show_exact_mark: bool = setting(False, "draw an o for the true car", False, True)
+    show_methods: bool = setting(False, "draw a to e for five methods", False, True)
+    show_details: bool = setting(False, "write x, v and FPS, as d does", False, True)
 
     def column_m(self) -> float:
         """How wide a column of the film is."""
         return 1 / self.m_to_px
 
     def first_m(self) -> float:
-        """The place of the first column: 0 or, further left, the left wall."""
-        return min(0.0, self.track.left_edge_m)
+        """The place of the first column: 0, or the left wall if that is further left."""
+        return min(0.0, self.left_edge_m)
 
 def render_track(scene: Scene, places_m: dict[str, float], mark_m: float | None) -> str:
     """Draw a frame: one line of scene.width_px columns. places_m has the cars by their marks.
 
-    The line is painted from back to front: what is painted later covers what was there. So the car
-    itself, *, must be the last of the cars, and nothing hides it.
+    What is painted later covers what was there. So the car itself, *, must be the last of the cars:
+    nothing hides it.
     """
-    track = scene.track
     marks = []
     if scene.show_collision_mark and mark_m is not None:
         marks.append(("0", mark_m))
     if scene.show_start_mark:
-        marks.append((".", track.x_m))
-    marks.append(("|", track.left_edge_m))
-    marks.append(("|", track.right_edge_m))
+        marks.append((".", scene.x_m))
+    marks.append(("|", scene.left_edge_m))
+    marks.append(("|", scene.right_edge_m))
     marks.extend(places_m.items())
     line = [" "] * scene.width_px
     first_m = scene.first_m()
@@ -378,30 +344,20 @@ def details_text(x_m: float, v_mps: float, fps: float, true_m: float | None) -> 
     return f"{text}, err = {x_m - true_m:9.2e}"
 
 # A terminal changes its colour where it reads "\033[" and a number and "m". 0 ends the colour.
-COLOURED_MARKS = str.maketrans({
-    "*": "\033[33m*\033[0m",  # yellow
-    "+": "\033[36m+\033[0m",  # cyan
-    "o": "\033[32mo\033[0m",  # green
-    "0": "\033[31m0\033[0m",  # red
-})
+GREEN_O, RED_0 = "\033[32mo\033[0m", "\033[31m0\033[0m"
+COLOURS = str.maketrans({"o": GREEN_O, "0": RED_0})
 
-class View(NamedTuple):
-    """How a film is printed. In a narrow terminal this scene has a smaller picture."""
+def colours() -> dict[int, str]:
+    """The colours of the marks. There are none if the output is not a terminal with colours."""
+    is_dumb = os.environ.get("TERM", "dumb") == "dumb"
+    if is_dumb or os.environ.get("NO_COLOR") or not sys.stdout.isatty():
+        return {}
+    return COLOURS
 
-    scene: Scene
-    has_details: bool
-    has_colours: bool
-
-    def line(self, cars: dict[str, Car], fps: float) -> str:
-        """The newest frame of the cars, as it is printed."""
-        places_m = {mark: car.frames[-1].x_m for mark, car in cars.items()}
-        frame = cars["*"].frames[-1]
-        text = render_track(self.scene, places_m, frame.mark_m)
-        if self.has_colours:
-            text = text.translate(COLOURED_MARKS)
-        if self.has_details:
-            text += details_text(frame.x_m, frame.v_mps, fps, places_m.get("o"))
-        return text
+def say(text: str) -> None:
+    """Print a paragraph, as wide as the terminal but no wider than is good to read."""
+    width = min(100, shutil.get_terminal_size().columns)
+    print(textwrap.fill(text, width), flush=True)
 
 # ==== 5. The main loop ==========================================================================
 # When is a film over, how does it keep its speed, and what happens in each frame? The main loop,
@@ -409,149 +365,147 @@ class View(NamedTuple):
 
 REST_S = 0.3  # long enough to be seen
 REST_FRAMES = 10  # at a low frame rate 0.3 s may be a single frame
-ROUND_OFF_S = 1e-9  # times are sums of many dt, so the last digits are not to be trusted
 
-class Rest:
-    """Watches a car, frame by frame, and knows whether it is at rest, and since when.
+class Car:
+    """A car on its track. It keeps what each frame ended with: for rest_began(), and the table."""
 
-    In most films the rule is: for 0.3 s and for ten frames the car has been on the track and low,
-    at most about 3 mm above its floor. (Its velocity does not count: with some methods a car that
-    lies still has one.)
-        How low?    At most a 650th of the height that the car can reach with the energy of its
-                    start (if it has none: of the track). On the whole of the lesson's track
-                    this is 3 mm. And at most half a column of the film.
-        How long?   At least as long as a hop to this height lasts. If the acceleration is small,
-                    this is more than 0.3 s. A car that only passes by is gone before.
-    Without an acceleration the car has no floor. Then its velocity must be 0.
-    """
+    def __init__(self, scene: Scene) -> None:
+        self.scene = scene
+        # Number 0 is the start, and number n is the end of frame n.
+        self.places_m = [scene.x_m]
+        self.velocities_mps = [scene.v_mps]
+        self.marks_m: list[float | None] = [None]
 
-    def __init__(self, track: Track, column_m: float) -> None:
-        self.track = track
-        g_mps2 = abs(track.a_mps2)
-        reach_m = track.length_m()
-        energy = track.energy(track.nearest_m(track.x_m), track.v_mps)
-        if energy > 0 and g_mps2 > 0:
-            reach_m = min(reach_m, energy / g_mps2)  # from E = g * height
-        self.low_m = min(reach_m / 650, column_m / 2)
-        self.needed_s = REST_S
-        if g_mps2 > 0:
-            # Half of the hop is a fall from its top: low = g (hop/2)^2/2.
-            hop_s = 2 * math.sqrt(2 * self.low_m / g_mps2)
-            self.needed_s = max(REST_S, hop_s)
-        self.began_s = 0.0  # since when it is low
-        self.count = 0  # for how many frames it has been low
+    def move(self, dt_s: float) -> None:
+        """Make a frame of dt_s, and keep it."""
+        x_m, v_mps, mark_m = step(self.scene, self.places_m[-1], self.velocities_mps[-1], dt_s)
+        self.places_m.append(x_m)
+        self.velocities_mps.append(v_mps)
+        self.marks_m.append(mark_m)
 
-    def look(self, frame: Frame) -> bool:
-        """Count the next frame of the car. Returns whether it is at rest now."""
-        if self.track.a_mps2 == 0:
-            is_low = frame.v_mps == 0
-        else:
-            is_low = abs(frame.x_m - self.track.floor_m()) <= self.low_m
-        if not is_low or not self.track.has_on_it(frame.x_m):
-            self.count = 0
+    def low_m(self) -> float:
+        """Below this height above its floor nobody sees that a car moves: half a column or less."""
+        # A 650th of the track is 3 mm in examples 1 to 12. With this, the films of examples 1, 5, 6
+        # and 12 end in the same frame as in the lesson that this program follows.
+        return min(self.scene.column_m() / 2, self.scene.length_m() / 650)
+
+    def is_low(self, number: int) -> bool:
+        """Whether the car may be at rest in the frame of this number.
+
+        Its velocity does not count: with some methods a car that lies still has one. But without an
+        acceleration a car may stand still anywhere. Then its velocity must be 0.
+        """
+        x_m = self.places_m[number]
+        if not self.scene.has_on_it(x_m):
             return False
-        if self.count == 0:
-            self.began_s = frame.t_s
-        self.count += 1
-        low_for_s = frame.t_s - self.began_s
-        return self.count >= REST_FRAMES and low_for_s >= self.needed_s - ROUND_OFF_S
+        if self.scene.a_mps2 == 0:
+            return self.velocities_mps[number] == 0
+        return abs(x_m - self.scene.floor_m()) <= self.low_m()
 
-def rest_began_s(track: Track, frames: list[Frame], column_m: float) -> float | None:
-    """The moment since which a car is at rest in the last of these frames, or None if it is not."""
-    rest = Rest(track, column_m)
-    is_at_rest = False
-    for frame in frames[1:]:  # frames[0] is the start
-        is_at_rest = rest.look(frame)
-    return rest.began_s if is_at_rest else None
+    def rest_began(self) -> int | None:
+        """The number of the frame since which the car is at rest, or None if it is not.
+
+        It must be low for ten frames, for 0.3 s, and for longer than a hop so low lasts: the slow
+        top of a hop is no rest.
+        """
+        needed_s = REST_S
+        g_mps2 = abs(self.scene.a_mps2)
+        if g_mps2 > 0:
+            fall_s = math.sqrt(2 * self.low_m() / g_mps2)  # from low = g fall^2/2
+            needed_s = max(REST_S, 2 * fall_s)  # a hop is a rise and a fall
+        first = len(self.places_m)
+        while first > 0 and self.is_low(first - 1):
+            first -= 1
+        steps = len(self.places_m) - 1 - first
+        if steps >= REST_FRAMES - 1 and steps >= needed_s * self.scene.fps_target:
+            return first
+        return None
+
+def frame_text(cars: dict[str, Car], scene: Scene, fps: float, colour_of: dict[int, str]) -> str:
+    """The newest frame of the cars, as it is printed."""
+    places_m = {}
+    for mark, car in cars.items():
+        if mark != "o" or scene.show_exact_mark:
+            places_m[mark] = car.places_m[-1]
+    car = cars["*"]
+    text = render_track(scene, places_m, car.marks_m[-1]).translate(colour_of)
+    if scene.show_details:
+        text += details_text(car.places_m[-1], car.velocities_mps[-1], fps, places_m.get("o"))
+    return text
 
 def planned_length_s(scene: Scene, number: int) -> float:
     """How long the frame of this number should last. With jitter, frames are irregular."""
-    # Numbers that look random, but are the same each time: the multiples of 0.618 (the golden ratio
-    # - 1) without their whole parts. They are spread evenly from 0 to 1.
+    # Numbers that look random, but are the same each time: the multiples of 0.618 without their
+    # whole parts. They are spread evenly from 0 to 1, because 0.618 is near the golden section.
     from_0_to_1 = (0.618 * number) % 1
     from_minus_1_to_1 = 2 * from_0_to_1 - 1
     return (1 + scene.jitter * from_minus_1_to_1) / scene.fps_target
 
-def planned_dt_s(scene: Scene, number: int) -> float:
-    """How much time should pass for the car in this frame."""
-    if scene.use_observed_dt:
-        return planned_length_s(scene, number)
-    return 1 / scene.fps_target  # the same in each frame, however long it lasts
-
 STALL_S = 0.15  # a delay that everybody sees: people begin to notice one at about 0.1 s
 
-class Pace:
-    """Makes a film keep its speed: it knows when each frame is due.
+def ticks(scene: Scene, max_frames: int, keys: Keys | None) -> Iterator[tuple[float, float]]:
+    """For each frame: wait until it is due, and yield its dt_s and the rate that d shows.
 
-    The frames are due at planned moments. If each frame slept for dt instead, it would last longer
-    than dt, because computing and printing take time, too.
+    yield hands a frame to the loop in run(), and goes on here when that asks for the next one. The
+    frames are due at planned moments. If each frame slept for dt instead, it would last longer than
+    dt, because computing and printing take time, too. Without keys (--fast) nothing waits.
     """
-
-    def __init__(self, scene: Scene, keys: Keys | None) -> None:
-        self.scene = scene
-        self.keys = keys
-        # As if a frame had been shown one frame ago. So frame 1 is due now.
-        self.shown_s = time.perf_counter() - planned_length_s(scene, 1)
-        self.due_s = self.shown_s
-
-    def wait(self, number: int, t_s: float) -> tuple[float, float]:
-        """Wait until the frame of this number is due. Returns its dt_s, and the rate that d shows.
-
-        t_s is how much time has passed in the film, for the text of a pause. Without keys (--fast)
-        nothing waits: dt_s is as planned, and the rate is fps_target.
-        """
-        dt_s, fps = planned_dt_s(self.scene, number), self.scene.fps_target
-        if self.keys is None:
-            return dt_s, fps
-        self.due_s += planned_length_s(self.scene, number)
-        was_timed = self.keys.wait(self.due_s, number, t_s)  # False after a pause
+    # Pretend that a frame was shown one frame ago. So frame 1, a frame later, is due now.
+    due_s = shown_s = time.perf_counter() - planned_length_s(scene, 1)
+    for number in range(1, max_frames + 1):
+        fps = scene.fps_target
+        length_s = planned_length_s(scene, number)
+        dt_s = length_s if scene.use_observed_dt else 1 / fps
+        if keys is None:
+            yield dt_s, fps
+            continue
+        due_s += length_s
+        was_paused = keys.wait(due_s, number)
+        if keys.why_quit:
+            return
         now_s = time.perf_counter()
-        lasted_s = now_s - self.shown_s
-        self.shown_s = now_s
-        if was_timed:
-            fps = 1 / max(lasted_s, 1e-6)  # the clock may not have ticked in between
+        lasted_s = now_s - shown_s
+        shown_s = now_s
         # After a pause or a stall plan the next frames from now. Otherwise the film would race to
         # catch up. And keep the planned dt. Otherwise the car would leap.
-        if not was_timed or now_s > self.due_s + STALL_S:
-            self.due_s = now_s
-        elif self.scene.use_observed_dt:
+        if was_paused or now_s > due_s + STALL_S:
+            due_s = now_s
+        elif scene.use_observed_dt:
             dt_s = lasted_s
-        return dt_s, fps
+        if not was_paused:
+            fps = 1 / max(lasted_s, 1e-6)  # the clock may not have ticked in between
+        yield dt_s, fps
 
-def run(cars: dict[str, Car], scene: Scene, view: View, max_frames: int,
-        keys: Keys | None) -> None:
+def run(cars: dict[str, Car], scene: Scene, max_frames: int, keys: Keys | None) -> None:
     """Show the film until a key, the car at rest or max_frames ends it, and say which of them.
 
-    cars has the cars by their marks, from back to front. Without keys (--fast) nothing waits.
+    cars has the cars by their marks, from back to front.
     """
     car = cars["*"]
-    rest = Rest(car.track, scene.column_m())
-    pace = Pace(scene, keys)
+    colour_of = colours()
+    t_s = 0.0
     why = "that is the frame limit"
-    for number in range(1, max_frames + 1):
-        # Wait until the frame is due. A key may end the film meanwhile.
-        dt_s, fps = pace.wait(number, car.frames[-1].t_s)
-        if keys is not None and keys.why_quit:
-            why = keys.why_quit
-            break
+    for dt_s, fps in ticks(scene, max_frames, keys):
         # Move the cars, and settle their collisions.
         for each in cars.values():
             each.move(dt_s)
         # Draw the frame.
-        print(view.line(cars, fps))
+        print(frame_text(cars, scene, fps, colour_of))
         # Is it over?
-        if rest.look(car.frames[-1]) and scene.auto_off:
+        t_s += dt_s
+        if scene.auto_off and car.rest_began() is not None:
             why = "the car is at rest"
             break
-    frames, t_s = len(car.frames) - 1, car.frames[-1].t_s
-    print(f"Stopped after {frames} frames, t = {t_s:.2f} s: {why}.", flush=True)
+    if keys is not None and keys.why_quit:
+        why = keys.why_quit
+    print(f"Stopped after {len(car.places_m) - 1} frames, t = {t_s:.2f} s: {why}.", flush=True)
 
 # ==== 6. The truth ==============================================================================
 # What would the car really do? And which method should I take?
 #
-# The correction replay is right for a frame of any length: with motion=exact, one step() of 20 s
-# returns where the car truly is after 20 s. The film's o, the chart and the map rely on this. So
-# the tests compare it with a reference that has 60 digits.
+# The correction replay is right, to round-off, for a frame of any length: with motion=exact, one
+# step() of 20 s returns where the car truly is after 20 s. The film's o, the chart and the map rely
+# on this. So the tests compare it with a reference that has 60 digits.
 #
 # Think of a ball in a room. The wall to which the car is accelerated is the floor, and the other
 # wall is the ceiling. h is the height of the ball above the floor. The ball flies from bounce to
@@ -567,194 +521,157 @@ def run(cars: dict[str, Car], scene: Scene, view: View, max_frames: int,
 GRAZE = 2.5e-11  # on the lesson's track 5e-11 m: far more than round-off, less than an atom's width
 
 def next_bounce(h_m: float, rise_mps: float, g_mps2: float,
-                room_m: float) -> tuple[str, float, float]:
+                room_m: float) -> tuple[float, float, float]:
     """Which wall does the ball meet next, after how many s, and at how many m/s?
 
-    h_m is the height of the ball, and rise_mps is its velocity, upwards.
+    The wall is told by its height: 0 is the floor, and room_m is the ceiling. h_m is the height of
+    the ball, and rise_mps is its velocity, upwards.
     """
-    # To rise to the ceiling takes the energy g * (room - h). For a ball that only just
-    # gets there, round-off would decide. So here it meets the ceiling only if it could rise higher,
-    # by GRAZE times the height of the room.
+    # To rise to the ceiling takes the energy g * (room - h). For a ball that only just gets there,
+    # round-off would decide. So it must be able to rise higher, by GRAZE times the room's height.
     energy_to_meet_it = g_mps2 * (room_m - h_m + GRAZE * room_m)
     if rise_mps > 0 and rise_mps * rise_mps / 2 >= energy_to_meet_it:
         flight_s, speed_mps = arrival(room_m - h_m, rise_mps, -g_mps2)
-        return "ceiling", flight_s, speed_mps
+        return room_m, flight_s, speed_mps
     flight_s, speed_mps = arrival(h_m, -rise_mps, g_mps2)
-    return "floor", flight_s, speed_mps
-
-def follow(h_m: float, rise_mps: float, g_mps2: float, room_m: float, CR: float,
-           remaining_s: float) -> tuple[float, float, bool]:
-    """Follow the ball from bounce to bounce. Where is it after remaining_s?
-
-    Returns its height, its velocity upwards, and whether it has bounced.
-    """
-    has_bounced = has_met_floor = False
-    since_floor_s = 0.0  # the time since the last bounce on the floor
-    while rise_mps != 0 or g_mps2 != 0:  # otherwise nothing moves the ball
-        wall, flight_s, speed_mps = next_bounce(h_m, rise_mps, g_mps2, room_m)
-        if flight_s > remaining_s:
-            break  # the time is over before the ball gets there
-        has_bounced = True
-        remaining_s -= flight_s
-        since_floor_s += flight_s
-        if wall == "ceiling":
-            h_m, rise_mps = room_m, -CR * speed_mps
-            continue
-        h_m, rise_mps = 0.0, CR * speed_mps
-        if rise_mps * rise_mps / 2 <= g_mps2 * GRAZE * room_m:
-            return 0.0, 0.0, True  # it lies still: see GRAZE
-        if CR == 1 and has_met_floor:
-            # At CR = 1 the ball needs the same time from floor to floor again and again. So leave
-            # out all whole periods. What remains is the remainder of a division.
-            remaining_s = remaining_s % since_floor_s
-        has_met_floor = True
-        since_floor_s = 0.0
-    h_m, rise_mps = exact(h_m, rise_mps, -g_mps2, remaining_s)
-    return h_m, rise_mps, has_bounced
+    return 0.0, flight_s, speed_mps
 
 def replay(track: Track, x_m: float, v_mps: float, dt_s: float) -> Moved:
-    """Follow the exact motion for a whole frame, from bounce to bounce, as a ball in a room.
+    """Follow the exact motion from bounce to bounce: right however many a frame has.
 
-    It takes and returns what step() does, and is right for a frame of any length.
+    It takes and returns what step() does.
     """
     # A car that has moved one way only, and is still on the track, has met no wall. The lines below
-    # would find the same. But most frames of a flight end here, which is several times as fast.
+    # would find the same. This only saves time: most frames end here.
     free_m, free_mps = exact(x_m, v_mps, track.a_mps2, dt_s)
     has_turned = v_mps * free_mps < 0  # its velocity has changed its sign
-    if track.left_edge_m <= free_m <= track.right_edge_m and not has_turned:
+    if track.has_on_it(free_m) and not has_turned:
         return free_m, free_mps, None
-    # Turn the track into a room, and back again. up is the direction away from the floor.
+    # Turn the track into a room. up is the direction away from the floor.
     up = -1 if track.a_mps2 > 0 else 1
-    floor_m = track.floor_m()
-    h_m = up * (track.nearest_m(x_m) - floor_m)
-    h_m, rise_mps, has_bounced = follow(h_m, up * v_mps, abs(track.a_mps2), track.length_m(),
-                                        track.CR, dt_s)
-    x_m = track.nearest_m(floor_m + up * h_m)  # round-off must not leave it beyond a wall
-    if not has_bounced:
-        return x_m, up * rise_mps, None
-    return x_m, up * rise_mps, free_m
+    g_mps2, room_m = abs(track.a_mps2), track.length_m()
+    h_m, rise_mps = up * (track.nearest_m(x_m) - track.floor_m()), up * v_mps
+    remaining_s, mark_m = dt_s, None
+    while rise_mps != 0 or g_mps2 != 0:  # otherwise nothing moves the ball
+        met_h_m, flight_s, speed_mps = next_bounce(h_m, rise_mps, g_mps2, room_m)
+        if flight_s > remaining_s:
+            break  # the frame is over before the ball gets there
+        remaining_s -= flight_s
+        mark_m = free_m
+        h_m = met_h_m
+        rise_mps = track.CR * speed_mps
+        if h_m > 0:  # the ceiling
+            rise_mps = -rise_mps
+        elif rise_mps * rise_mps / 2 <= g_mps2 * GRAZE * room_m:
+            return track.floor_m(), 0.0, mark_m  # it lies still: see GRAZE
+        elif track.CR == 1:
+            # It needs the same time from floor to floor again and again. Leave out whole periods:
+            # if 7 s are left, and the period is 2 s, only the last 1 s matters.
+            met_h_m, flight_s, _ = next_bounce(h_m, rise_mps, g_mps2, room_m)
+            period_s = flight_s
+            if met_h_m > 0:  # from the ceiling it needs the same time back to the floor
+                period_s = 2 * flight_s
+            remaining_s %= period_s
+    h_m, rise_mps = exact(h_m, rise_mps, -g_mps2, remaining_s)
+    # Turn the room into the track again. Round-off must not leave the car beyond a wall.
+    return track.nearest_m(track.floor_m() + up * h_m), up * rise_mps, mark_m
 
 # Which method should I take? A method is a motion and a correction. Of the fourteen possible ones,
-# example 21 and the chart compare five.
+# example 21 and the chart compare five. Order 1 means that half the dt makes half the error.
 #
 #     method                 energy       error of the place          take it for
 #     a  backward + rebound  up and down  order 1                     seeing errors
 #     b  exact + rebound     too much     order 1                     cars without an acceleration
 #     c  exact + conserve    right        order 1: bounces come late  balls in a game
-#     d  exact + rewind      right        none                        short frames
+#     d  exact + rewind      right        none; order 2 at rest       one bounce a frame
 #     e  exact + replay      right        none                        the truth
 #
-# The table is for a CR above 0, and for a car that bounces on its floor, at most once in a frame.
-# The energy is that after a bounce. Order 1 means that frames of half the length, if they are short
-# enough, make about half the error. There are two exceptions:
-#     At CR < 1 the last frames before the Zeno point have several bounces. There d gets a little
-#     too much energy. So it has an error of order 2: frames of half the length make a quarter.
-#     Without an acceleration a, b, d and e have no error, and c has one of order 1.
+# The table is for a car that bounces on its floor, at most once in a frame. (Without an
+# acceleration a, b, d and e have no error, and c has one of order 1.) At rest: at CR < 1 the last
+# frames before the Zeno point have several bounces. There d gets a little too much energy.
 #
-# Methods a to d need short frames, because they look only at the end of a frame, and settle one
-# bounce there. They miss a bounce if the car is back on the track when the frame ends (example 18).
-# In long frames a, b and d may even throw the car out at the other end (example 14). Methods c and
-# e never do. Method e is right in frames of any length. Why not always take e? It needs a constant
-# acceleration, as b to d do. And it needs to know all walls at once, to find the next bounce. The
-# others settle only the wall that a move has met.
-METHODS: dict[str, dict[str, Any]] = {
-    "a": {"motion": "backward", "correction": "rebound"},
-    "b": {"motion": "exact", "correction": "rebound"},
-    "c": {"motion": "exact", "correction": "conserve"},
-    "d": {"motion": "exact", "correction": "rewind"},
-    "e": {"motion": "exact", "correction": "replay"},
-}
+# Methods a to d look only at the end of a frame, so they may miss a bounce (example 18). In long
+# frames a, b and d may even throw the car out at the other end (example 14). Methods c and e never
+# do. Why not always take e? Before it moves the car, it works out which wall the car meets next. In
+# a game with many things that move, nobody knows that. The others settle only a wall that a move
+# has met. So take c for a game.
+METHODS = {"a": ("backward", "rebound"), "b": ("exact", "rebound"), "c": ("exact", "conserve"),
+           "d": ("exact", "rewind"), "e": ("exact", "replay")}
 
-THE_TRUTH = "e"  # the true car is moved by this method
+LEGEND = ", ".join([f"{letter}: {' + '.join(method)}" for letter, method in METHODS.items()])
 
-def by_five_methods(track: Track) -> dict[str, Track]:
-    """The track with each of the five methods, by their letters.
+def with_method(scene: Scene, motion: str, correction: str) -> Scene:
+    """The scene with this method. With rewind and replay the car must start on the track."""
+    x_m = scene.nearest_m(scene.x_m) if correction in EXACT_ONLY else scene.x_m
+    return replace(scene, x_m=x_m, motion=motion, correction=correction)
 
-    All start on the track: a start beyond a wall is moved to the wall.
-    """
-    track = replace(track, x_m=track.nearest_m(track.x_m))
-    return {letter: replace(track, **method) for letter, method in METHODS.items()}
+def truth_of(scene: Scene) -> Scene:
+    """The scene of the true car."""
+    return with_method(scene, *METHODS["e"])
 
-def truth_of(track: Track) -> Track:
-    """The track of the true car."""
-    return by_five_methods(track)[THE_TRUTH]
+def furthest_m(car: Car, truth: Car) -> float:
+    """How far the car was at most from the true car."""
+    pairs = zip(car.places_m, truth.places_m, strict=True)
+    return max(abs(x_m - true_m) for x_m, true_m in pairs)
 
-def method_text(track: Track) -> str:
-    """The method in words, as in backward + rebound."""
-    return f"{track.motion} + {track.correction}"
+LATE_S = 5  # the last seconds of a film or a run show what has become of a car
 
-LEGEND = {letter: f"{letter}: {method_text(track)}"
-          for letter, track in by_five_methods(Track()).items()}
+def late_states(car: Car) -> list[State]:
+    """The car's place and velocity in each frame of the last 5 s, or of all a shorter film."""
+    count = round(LATE_S * car.scene.fps_target) + 1
+    return list(zip(car.places_m[-count:], car.velocities_mps[-count:], strict=True))
+
+def late_energy(car: Car) -> float:
+    """The mean energy of the car in its late states."""
+    return fmean(car.scene.energy(x_m, v_mps) for x_m, v_mps in late_states(car))
 
 # ==== 7. The chart: speed against accuracy ======================================================
 # What does each method cost, and how wrong is it?
 
-SPAN_S = 20  # of simulated time: eight bounces in example 10, so errors have time to grow
+SPAN_S = 20  # of simulated time: in example 12 a true car bounces for 12 s, then it lies still
 RUNS = 10  # of each method: with fewer, the largest error would be less reliable
+CHART_FPS = [1, 2, 5, 10, 30, 60, 120, 240, 480, 960]
 
-# PYTHON, say() and track_text() are for all that is printed from here on.
+def frames_of(scene: Scene) -> int:
+    """How many frames SPAN_S has."""
+    return round(SPAN_S * scene.fps_target)
 
-PYTHON = os.path.basename(sys.executable).removesuffix(".exe")  # what runs this: python3, say
+def simulated(scene: Scene) -> Car:
+    """The car of the scene after SPAN_S in equal frames."""
+    car = Car(scene)
+    for _ in range(frames_of(scene)):
+        car.move(1 / scene.fps_target)
+    return car
 
-def say(text: str) -> None:
-    """Print a paragraph, as wide as the terminal but no wider than is good to read."""
-    width = min(100, shutil.get_terminal_size().columns)
-    print(textwrap.fill(text, width), flush=True)
+def true_cars(scene: Scene) -> list[Car]:
+    """The true car in several runs. All methods are compared with these.
 
-def track_text(track: Track) -> str:
-    """Car and track, by the names that one may type. (A number may have ten digits.)"""
-    return (f"x_m={track.x_m:.10g} v_mps={track.v_mps:.10g} a_mps2={track.a_mps2:.10g} "
-            f"CR={track.CR:.10g}, walls at {track.left_edge_m:.10g} and "
-            f"{track.right_edge_m:.10g} m")
-
-def simulate(track: Track, lengths_s: list[float]) -> list[Frame]:
-    """The start of a car, and a frame of each of these lengths."""
-    car = Car(track)
-    for dt_s in lengths_s:
-        car.move(dt_s)
-    return car.frames
-
-def beside(frames: list[Frame], track: Track) -> list[Frame]:
-    """A car on this track that starts as those frames do, and makes frames of the same lengths."""
-    start = frames[0]
-    track = replace(track, x_m=track.nearest_m(start.x_m), v_mps=start.v_mps)
-    return simulate(track, [frame.dt_s for frame in frames[1:]])
-
-def furthest_m(frames: list[Frame], true_frames: list[Frame]) -> float:
-    """How far a car was at most from its true car."""
-    pairs = zip(frames, true_frames, strict=True)
-    return max(abs(frame.x_m - true.x_m) for frame, true in pairs)
-
-def ten_true_runs(track: Track, fps: int) -> list[list[Frame]]:
-    """The frames of the true car in ten runs of SPAN_S. All methods are compared with them.
-
-    An error depends on the moment of a frame at which the car meets a wall. So the runs begin at
-    ten moments of the same motion. Run 0 begins at the start, and each other run a part of a frame
-    after run 0, where the true car is then.
+    An error depends on the moment of a frame at which the car meets a wall. So each run begins a
+    part of a frame later in the true motion than the run before. Run 0 begins at the start.
     """
-    truth = truth_of(track)
-    runs = []
+    truth = truth_of(scene)
+    cars = []
     for run_number in range(RUNS):
-        # The parts are elevenths. With tenths, round settings may put a bounce at a frame's end.
-        later_s = run_number / (RUNS + 1) / fps
+        # The parts are elevenths. With tenths, settings such as 0.5 may put a bounce at the very
+        # end of a frame.
+        later_s = run_number / (RUNS + 1) / scene.fps_target
         x_m, v_mps, _ = step(truth, truth.x_m, truth.v_mps, later_s)
-        later = replace(truth, x_m=x_m, v_mps=v_mps)
-        runs.append(simulate(later, [1 / fps] * (SPAN_S * fps)))
-    return runs
+        cars.append(simulated(replace(truth, x_m=x_m, v_mps=v_mps)))
+    return cars
 
-def costs_us(tracks: dict[str, Track], fps: int) -> dict[str, float]:
-    """How long the steps of a simulated second take with each method, in microseconds.
+def costs_us(scenes: dict[str, Scene]) -> dict[str, float]:
+    """How long the steps of a simulated second take in each scene, in microseconds.
 
-    Other programs may slow this one. So the methods take turns, and the least of several runs is
+    Other programs may slow this one. So the scenes take turns, and the least of several runs is
     nearest to the time that the steps themselves need.
     """
-    costs = dict.fromkeys(tracks, math.inf)
-    for _ in range(max(10, 600 // fps)):  # at a low rate a run is short, so make more of them
-        for letter, track in tracks.items():
-            x_m, v_mps = track.x_m, track.v_mps
+    costs = dict.fromkeys(scenes, math.inf)
+    for _ in range(10):
+        for letter, scene in scenes.items():
+            x_m, v_mps, dt_s = scene.x_m, scene.v_mps, 1 / scene.fps_target
             began_s = time.perf_counter()
-            for _ in range(SPAN_S * fps):  # the bare steps: keeping the states would cost, too
-                x_m, v_mps, _ = step(track, x_m, v_mps, 1 / fps)
+            for _ in range(frames_of(scene)):
+                x_m, v_mps, _ = step(scene, x_m, v_mps, dt_s)
             cost_us = 1e6 * (time.perf_counter() - began_s) / SPAN_S
             costs[letter] = min(costs[letter], cost_us)
     return costs
@@ -762,53 +679,21 @@ def costs_us(tracks: dict[str, Track], fps: int) -> dict[str, float]:
 class Point(NamedTuple):
     """One method at one frame rate: a point of the chart."""
 
-    fps: int
-    error_m: float  # the largest in ten runs. For e it is 0: e is how the true car is moved.
+    letter: str
+    fps: float
+    error_m: float  # the largest in ten runs. For e it is 0: the true car is moved by e.
     cost_us: float
 
-def measured(track: Track, fps: int) -> dict[str, Point]:
-    """Measure each of the five methods at this rate."""
-    tracks = by_five_methods(track)
-    costs = costs_us(tracks, fps)
-    true_runs = ten_true_runs(track, fps)
-    points = {}
-    for letter, method_track in tracks.items():
-        error_m = 0.0
-        for true_frames in true_runs:
-            frames = beside(true_frames, method_track)
-            error_m = max(error_m, furthest_m(frames, true_frames))
-        points[letter] = Point(fps, error_m, costs[letter])
+def measured(scene: Scene) -> list[Point]:
+    """Measure each of the five methods at the frame rate of this scene."""
+    truths = true_cars(scene)
+    costs = costs_us({letter: with_method(scene, *method) for letter, method in METHODS.items()})
+    points = []
+    for letter, method in METHODS.items():
+        errors_m = [furthest_m(simulated(with_method(truth.scene, *method)), truth)
+                    for truth in truths]
+        points.append(Point(letter, scene.fps_target, max(errors_m), costs[letter]))
     return points
-
-CHART_FPS = [1, 2, 5, 10, 30, 60, 120, 240, 480, 960]
-GAME_FPS = 60  # most screens show so many frames a second
-
-Series = dict[str, list[Point]]  # the points of each method, from the lowest rate to the highest
-
-def order_text(points: list[Point], track_m: float) -> str:
-    """The order of a method: at order 1 twice the rate divides the error by 2, at order 2 by 4."""
-    # Errors as large as the track tell nothing of the order. So take those below a tenth of it.
-    small = [point for point in points if point.error_m < track_m / 10]
-    # Round-off has no order. (5e-10 of the lesson's track is 1e-9 m.)
-    telling = [point for point in small if point.error_m >= 5e-10 * track_m]
-    if small and not telling:
-        return "none"
-    if len(telling) < 3:
-        return "?"  # too few for a straight line
-    # error = constant / rate^order. In logarithms this is a straight line, and it goes down: its
-    # slope is minus the order.
-    rates = [math.log(point.fps) for point in telling]
-    errors = [math.log(point.error_m) for point in telling]
-    slope, _ = linear_regression(rates, errors)
-    return f"{-slope:.1f}"
-
-def row_text(row: dict[str, Point], fps: int) -> str:
-    """A row of the table: all methods at one rate. A - is no error, not even round-off."""
-    text = f"{fps:4}"
-    for point in row.values():
-        error = f"{point.error_m:.1e}" if point.error_m > 0 else "-"
-        text += f"{error:>8}{point.cost_us:7.1f}"
-    return text
 
 DECADES = ["<=1 um", "10 um", "0.1 mm", "1 mm", "1 cm", "0.1 m", "1 m", ">=10 m"]
 LEAST_ERROR_M = 1e-6  # the left edge. A decade is from one power of ten to the next.
@@ -820,15 +705,18 @@ def error_column(error_m: float) -> int:
     decades = math.log10(max(error_m, LEAST_ERROR_M) / LEAST_ERROR_M)
     return min(round(COLUMNS_A_DECADE * decades), LAST_COLUMN)
 
-def print_picture(series: Series, column_m: float) -> None:
+def placed(points: list[Point]) -> dict[tuple[int, int], str]:
+    """The letters of the points by their row and column in the picture. + is where two meet."""
+    letters: dict[tuple[int, int], str] = {}
+    for point in points:
+        place = round(ROWS_A_DECADE * math.log10(point.cost_us)), error_column(point.error_m)
+        there = letters.get(place, point.letter)  # what stands there already, if anything
+        letters[place] = point.letter if there == point.letter else "+"
+    return letters
+
+def print_picture(points: list[Point], column_m: float) -> None:
     """Draw the points as the film is drawn: error to the right, cost downwards."""
-    letters: dict[tuple[int, int], str] = {}  # by row and column
-    for letter, points in series.items():
-        for point in points:
-            row = round(ROWS_A_DECADE * math.log10(point.cost_us))
-            place = row, error_column(point.error_m)
-            there = letters.get(place, letter)  # what stands there already, if anything
-            letters[place] = letter if there == letter else "+"
+    letters = placed(points)
     rows = [row for row, _ in letters]
     limit = error_column(column_m)
     print("a column of the film |".rjust(10 + limit + 1))
@@ -840,129 +728,91 @@ def print_picture(series: Series, column_m: float) -> None:
             line += letters.get((row, column), behind)
         print(line.rstrip())
 
-def print_answers(series: Series, column_m: float) -> None:
-    """Print from which rate on a method is good enough, and its cost and error in a game."""
-    rows = []
-    for letter, points in series.items():
-        cheapest_us = math.inf
-        within = "at no rate"
-        for point in reversed(points):  # from the highest rate down, as long as it is good enough
+def print_answers(points: list[Point], column_m: float) -> None:
+    """Print from which rate on each method is good enough, and what it costs there."""
+    answers = []
+    for letter, method in METHODS.items():
+        cost_us, text = math.inf, "at no rate"
+        own = [point for point in points if point.letter == letter]
+        for point in reversed(own):  # from the highest rate down, as long as it is good enough
             if point.error_m > column_m:
                 break
-            cheapest_us = point.cost_us
-            within = f"from {point.fps:4} FPS on: {cheapest_us:6.1f} us"
-        in_game = next(point for point in points if point.fps == GAME_FPS)
-        off = f"up to {in_game.error_m:.2g} m off"
-        if letter == THE_TRUTH:
-            off = "right by definition"
-        text = f"{LEGEND[letter]:22} {within:27} {in_game.cost_us:5.1f} us, {off}"
-        rows.append((cheapest_us, text))
-    print(f"{'':22} {'within a column':27} at {GAME_FPS} FPS, as in a game")
-    for _, text in sorted(rows):  # by the cost, which stands first
+            cost_us, text = point.cost_us, f"from {point.fps:4} FPS on: {point.cost_us:6.1f} us"
+        answers.append((cost_us, f"{letter}: {' + '.join(method):20} {text}"))
+    for _, text in sorted(answers):  # by the cost, which stands first
         print(text)
 
-def chart(scene: Scene, words: str) -> None:
-    """Measure, print table and picture, and answer the question.
-
-    words are the number and the settings of the scene, as they were typed.
-    """
-    column_m = scene.column_m()
-    say(f"Speed against accuracy. Scene {words}: {track_text(scene.track)}")
-    say("Which method is the cheapest that stays within a column of the film? Each runs "
-        f"{RUNS} times for {SPAN_S} simulated seconds in equal frames, from {RUNS} moments of the "
-        "motion (the first is the film's). Error: the largest distance from the true car. (Method "
-        "e has none, because the true car is moved by it.) Cost: the time that a simulated second "
-        "takes, in us (microseconds). Order 1: half the dt makes half the error. Order 2: it makes "
-        "a quarter. (The order is taken from the errors below a tenth of the track and above "
-        "round-off. It is none if they are all round-off, and ? if fewer than three are left.)")
-    say(", ".join(LEGEND.values()))
+def chart(scene: Scene) -> None:
+    """Measure, print table and picture, and answer the question."""
+    say("Which method is the cheapest that stays within a column of the film? Error: the largest "
+        f"distance from the true car in {RUNS} runs of {SPAN_S} simulated seconds. Each run begins "
+        "a little later in the motion. Cost: how long a simulated second takes, in microseconds "
+        "(us).")
+    say(f"{LEGEND}. (Method e has no error: the true car is moved by it.)")
     print()
     print(" " * 4 + "".join([letter.rjust(11) + " " * 4 for letter in METHODS]).rstrip())
     print(" FPS" + " error m     us" * len(METHODS))
-    series: Series = {letter: [] for letter in METHODS}
+    points = []
     for fps in CHART_FPS:
-        row = measured(scene.track, fps)
-        print(row_text(row, fps), flush=True)
-        for letter, point in row.items():
-            series[letter].append(point)
-    orders = "order"
-    for points in series.values():
-        order = order_text(points, scene.track.length_m())
-        orders += f"{order:>7}" + " " * 8
-    print(orders.rstrip())
+        row = measured(replace(scene, fps_target=fps))
+        text = f"{fps:4}"
+        for point in row:
+            error = f"{point.error_m:.1e}" if point.error_m > 0 else "-"
+            text += f"{error:>8}{point.cost_us:7.1f}"
+        print(text, flush=True)
+        points += row
     print()
-    print_picture(series, column_m)
+    print_picture(points, scene.column_m())
     say("Error to the right, cost downwards: the best are in the upper left. + is where letters "
-        f"meet. The answer: within a column ({column_m:.2g} m) in all runs, at this rate and at "
-        "each higher one of the table:")
-    print_answers(series, column_m)
-    say("Why c in a game? It comes to rest on a floor if CR is below 1, it is never thrown out, "
-        "and it need not know all walls before it moves, as e must. But its bounces come up to a "
-        "frame late.")
-    print(f"Next: {PYTHON} airtrack.py stability {words}")
+        f"meet. Within a column ({scene.column_m():.2g} m), at this rate and each higher one:")
+    print_answers(points, scene.column_m())
 
 # ==== 8. The map: where methods fail ============================================================
-# Which method fails at which frame rate, and how? The table after a film judges by the same rules.
+# Which method fails at which frame rate, and how?
 
 MAP_FPS = [1, 2, 5, 10, 30, 60, 120, 240, 480]
-LATE_S = 15  # here the last 5 s of a run begin
-VERDICTS = {  # from the worst to the best: a letter, its name, and what it means
-    "X": ("gets out", "further beyond a wall than the track is long"),
-    "S": ("is stuck", "beyond the same wall in all frames from 15 to 20 s, at least ten"),
-    "H": ("hops on", "not at rest at 20 s, and the true car lies still from 15 s on"),
-    "W": ("has a wrong energy", "a G in some runs, an L in others"),  # only in the map: worst_of()
-    "G": ("has too much energy", "on average from 15 to 20 s, by over 1 % of the start's"),
-    "L": ("has too little energy", "on average from 15 to 20 s, by over 1 % of the start's"),
-    "P": ("was off, with the right energy", "over a column off, energy right from 15 s on"),
-    "-": ("is right", "never over a column away from the true car"),
+VERDICTS = {  # from the worst to the best
+    "X": "gets out: further beyond a wall than the track is long",
+    "S": "is stuck: beyond the same wall in the last 5 s, for ten frames or more",
+    "H": "hops on: not at rest, but the true car lies still in the last 5 s",
+    "G": "has too much energy: in the last 5 s, by over 1 % of that at the start",
+    "L": "has too little energy: in the last 5 s, by over 1 % of that at the start",
+    "P": "was over a column off, but has the right energy in the last 5 s",
+    "-": "is right: never over a column from the true car",
 }
 FROM_WORST_TO_BEST = list(VERDICTS)
 
-# Why do some cars hop for ever (H), and why do others get too much energy (G) or too little (L)?
-# Let a car hop on its floor. g is the size of its acceleration, 4 m/s^2 here, and dt is 0.1 s. The
-# hop begins at the speed u = 1.1 m/s. A true car would come back to the floor at 1.1 m/s. But the
-# program finds the car only at the end of a frame, below the floor:
+# Why do some cars hop for ever, and why do others get too much energy or too little? Let a car hop
+# on its floor: |a| is 4 m/s^2, dt is 0.1 s, and it leaves at 1.1 m/s. A true car would come back to
+# the floor at 1.1 m/s. But the program finds it only at the end of a frame, below the floor:
 #
 #     at the end of frame             1     2     3     4     5     6
 #     velocity upwards, in m/s      0.7   0.3  -0.1  -0.5  -0.9  -1.3
 #     height with exact, in cm        9    14    15    12     5    -6   found in frame 6: 1.3 m/s
 #     height with backward, in cm     7    10     9     4    -5         found in frame 5: 0.9 m/s
 #
-# In general a hop of n frames comes back at the speed
-#             w = n g dt - u = u + k g dt,        where k = n - 2 u/(g dt).
-#     With exact + surface n is the first number for which n g dt is above 2 u. So k is above 0, and
-#     at most 1: in each hop the car gets speed from nothing. At CR = 1 it hops higher and higher,
-#     up to the other wall (G). At CR below 1 it loses (1 - CR) w in each bounce. If CR is not too
-#     small, a slow car gets in each hop as much as it loses, and hops for ever (H). Rebound gives
-#     even more.
-#     With backward + surface a hop ends one frame earlier than with exact + surface, if it has two
-#     frames or more there. So k is above -1, and at most 0. If k is below 0, the next hop is
-#     shorter, even at CR = 1. In the end the hops have one frame: the car lies on its floor (L). If
-#     k is 0, as after a start at v = 0, the hops at CR = 1 stay as long as they are.
-# The page .github/law.md has the other methods, the proofs and the exceptions.
+# With exact + surface it comes back too fast. So at CR = 1 the hops get higher (G). At CR below 1,
+# if it is not too small, a slow car gets in each hop what a bounce takes, and hops for ever (H).
+# With backward + surface it comes back too slowly, and no hop gets higher (L). The page
+# .github/law.md has the law of this, and the other methods.
 
-def verdict(track: Track, frames: list[Frame], true_frames: list[Frame], column_m: float) -> str:
-    """The letter of a car that ran for 20 s beside its true car: any letter but W."""
-    left_m, right_m, track_m = track.left_edge_m, track.right_edge_m, track.length_m()
-    places_m = [frame.x_m for frame in frames[1:]]  # the start may be anywhere
-    if max(places_m) > right_m + track_m or min(places_m) < left_m - track_m:
+def verdict(car: Car, truth: Car) -> str:
+    """The letter of a run of SPAN_S, compared with the true car's."""
+    scene = car.scene
+    left_m, right_m, track_m = scene.left_edge_m, scene.right_edge_m, scene.length_m()
+    if max(car.places_m) > right_m + track_m or min(car.places_m) < left_m - track_m:
         return "X"
-    late = [frame for frame in frames if frame.t_s >= LATE_S - ROUND_OFF_S]
-    late_m = [frame.x_m for frame in late]
+    late_m = [x_m for x_m, _ in late_states(car)]
     is_beyond = min(late_m) > right_m or max(late_m) < left_m
-    if is_beyond and len(late) >= 10:  # fewer frames do not show that it stays there
+    if is_beyond and len(late_m) >= 10:  # fewer frames do not show that it stays there
         return "S"
-    if furthest_m(frames, true_frames) <= column_m:
+    if furthest_m(car, truth) <= scene.column_m():
         return "-"
     # If replay has laid the true car on its floor, its energy is exactly 0.
-    true_energies = [track.energy(true.x_m, true.v_mps) for true in true_frames[-len(late):]]
-    if max(true_energies) == 0 and rest_began_s(track, frames, column_m) is None:
+    if late_energy(truth) == 0 and car.rest_began() is None:
         return "H"
-    energies = [track.energy(frame.x_m, frame.v_mps) for frame in late]
-    gain = fmean(energies) - fmean(true_energies)
-    # 100 % is the energy at the start. (If it is beyond a wall, the true car has another start.)
-    starts = [track.energy(start.x_m, start.v_mps) for start in (frames[0], true_frames[0])]
-    one_percent = 0.01 * max(abs(energy) for energy in starts)
+    gain = late_energy(car) - late_energy(truth)
+    one_percent = 0.01 * scene.energy(scene.x_m, scene.v_mps)
     if gain > one_percent:
         return "G"
     if gain < -one_percent:
@@ -971,344 +821,300 @@ def verdict(track: Track, frames: list[Frame], true_frames: list[Frame], column_
 
 def worst_of(letters: list[str]) -> str:
     """One letter for several runs: the worst, as a small letter if only some are so bad."""
-    if "G" in letters and "L" in letters:
-        letters = ["W" if letter in "GL" else letter for letter in letters]
     worst = min(letters, key=FROM_WORST_TO_BEST.index)
-    if any(letter != worst for letter in letters):
-        return worst.lower()
-    return worst
+    return worst if set(letters) == {worst} else worst.lower()
 
-def stability(scene: Scene, words: str) -> None:
-    """Print the map: a row for each method, a column for each rate. words are as in chart()."""
-    column_m = scene.column_m()
-    say(f"Stability. Scene {words}: {track_text(scene.track)}")
-    say(f"Which methods are right, and from which frame rate on? Each runs {RUNS} times for "
-        f"{SPAN_S} simulated seconds in equal frames, from {RUNS} moments of the motion (the first "
-        "is the film's). A capital letter: all runs have it. A small letter: the worst runs have "
-        "it, and others are better. The key goes from the worst to the best. Only a car that was "
-        "over a column off at some time can have an H, W, G, L or P.")
-    print(f"Next: {PYTHON} airtrack.py 20 (why hops get too much energy), or 19 (too little)")
+def stability(scene: Scene) -> None:
+    """Print the map: a row for each method, a column for each rate."""
+    say(f"Which methods are right, and from which frame rate on? Each makes {RUNS} runs of "
+        f"{SPAN_S} simulated seconds. Each run begins a little later in the motion. A capital "
+        "letter: all runs have it. A small letter: only some runs have it, and the others are "
+        "better. The key goes from the worst to the best.")
     print()
     print(" " * 20 + "".join([str(fps).rjust(6) for fps in MAP_FPS]) + " FPS")
-    true_runs = {fps: ten_true_runs(scene.track, fps) for fps in MAP_FPS}
+    truths_by_rate = [true_cars(replace(scene, fps_target=fps)) for fps in MAP_FPS]
+    found = set()
     for motion in MOTIONS:
         for correction in ALL_CORRECTIONS:
             if correction in EXACT_ONLY and motion != "exact":
                 continue
-            track = replace(scene.track, motion=motion, correction=correction)
-            row = method_text(track).ljust(20)
-            for fps in MAP_FPS:
-                letters = []
-                for true_frames in true_runs[fps]:
-                    frames = beside(true_frames, track)
-                    letters.append(verdict(track, frames, true_frames, column_m))
+            row = f"{motion} + {correction}".ljust(20)
+            for truths in truths_by_rate:
+                letters = [verdict(simulated(with_method(truth.scene, motion, correction)), truth)
+                           for truth in truths]
                 row += worst_of(letters).rjust(6)
+                found.update(letters)
             print(row, flush=True)
-    for letter, (name, meaning) in VERDICTS.items():
-        print(f"{letter}  {name}: {meaning}")
+    print()
+    for letter, meaning in VERDICTS.items():
+        if letter in found:
+            print(f"{letter}  {meaning}")
 
 # ==== 9. Before and after a film ================================================================
 # What is said before a film, and what after it?
 
-class Film(NamedTuple):
-    """A film as somebody wants it."""
+PYTHON = os.path.basename(sys.executable).removesuffix(".exe")  # what runs this: python3, say
+SETTINGS = {each.name: each for each in fields(Scene)}
+OF_THE_TRACK = [each.name for each in fields(Track)]
 
-    number: int  # of the example
-    typed: list[str]  # the settings that were typed, as NAME=VALUE
-    scene: Scene
-    texts: Example  # what is said before and after it
-    unchanged: Scene | None  # the example without the changes, if there are any
-    plus: Track | None  # the track of the +, if one is drawn
-    has_details: bool
-    is_fast: bool
-    max_frames: int
+def settings_text(scene: Scene, always: list[str]) -> str:
+    """The settings named in always, and others that differ from their defaults, as one types them.
 
-def cars_of(scene: Scene, plus: Track | None) -> dict[str, Car]:
-    """All cars that a film draws, by their marks, from back to front."""
-    cars = {}
-    if scene.show_methods:
-        for letter, track in by_five_methods(scene.track).items():
-            cars[letter] = Car(track)
-    if scene.show_exact_mark:
-        cars["o"] = Car(truth_of(scene.track))
-    if plus is not None:
-        cars["+"] = Car(plus)
-    cars["*"] = Car(scene.track)
-    return cars
+    Which marks are drawn is not told, because one sees it.
+    """
+    texts = []
+    for name, each in SETTINGS.items():
+        value = getattr(scene, name)
+        is_told = name in always or value != each.default
+        if is_told and not name.startswith("show_"):
+            texts.append(f"{name}={value:.10g}" if isinstance(value, float) else f"{name}={value}")
+    return " ".join(texts)
 
-def scene_text(scene: Scene) -> str:
-    """All that moves the car, in words."""
-    text = f"{track_text(scene.track)}; {method_text(scene.track)}, {scene.fps_target:.10g} FPS"
-    if scene.jitter > 0:
-        text += f", jitter={scene.jitter:.10g}"
-    if scene.use_observed_dt:
-        text += ", use_observed_dt=True"
-    if not scene.track.has_on_it(scene.track.x_m):
-        text += "; it starts beyond a wall"
-    if scene.show_methods:
-        text = "; ".join([text, *LEGEND.values()])
-    return text
-
-def has_colours() -> bool:
-    """Whether the output is a terminal that shows colours, and is to show them."""
-    terminal = os.environ.get("TERM", "dumb")
-    return sys.stdout.isatty() and terminal != "dumb" and not os.environ.get("NO_COLOR")
-
-def fitted(scene: Scene, has_details: bool) -> Scene:
+def fitted(scene: Scene) -> Scene:
     """The scene, drawn smaller if its lines are wider than the terminal."""
-    columns = shutil.get_terminal_size().columns
-    if has_details:
+    if not sys.stdout.isatty():
+        return scene
+    room_px = shutil.get_terminal_size().columns
+    if scene.show_details:
         true_m = 0.0 if scene.show_exact_mark else None
         # Places and speeds in a scene hardly ever need more characters than -1000.00.
-        columns -= len(details_text(-1000, -1000, scene.fps_target, true_m))
-    columns = max(columns, 10)  # the least that a scene may have, even if lines are broken then
-    if columns >= scene.width_px or not sys.stdout.isatty():
-        return scene
+        room_px -= len(details_text(-1000, -1000, scene.fps_target, true_m))
+    width_px = min(scene.width_px, max(room_px, 10))  # 10 is the least, even if lines are broken
     # What was in the last column must stay in the last column. The first column has number 0.
-    m_to_px = scene.m_to_px * (columns - 1) / (scene.width_px - 1)
-    return replace(scene, width_px=columns, m_to_px=m_to_px)
+    m_to_px = scene.m_to_px * ((width_px - 1) / (scene.width_px - 1))
+    return replace(scene, width_px=width_px, m_to_px=m_to_px)
 
-def energies_text(car: Car) -> str:
-    """The first, the least, the most and the last energy, with up to four significant digits."""
-    energies = [car.track.energy(frame.x_m, frame.v_mps) for frame in car.frames]
-    text = ""
-    for energy in (energies[0], min(energies), max(energies), energies[-1]):
-        # Rounded to nine digits first. Otherwise round-off may decide the fourth.
-        rounded = float(f"{energy:.9g}")
-        text += f"{rounded:.4g}".rjust(10)
-    return text
+def cars_of(scene: Scene, unchanged: Scene | None) -> dict[str, Car]:
+    """All cars of a film, by their marks, from back to front: on one track, by several methods.
 
-def hops_text(car: Car) -> str:
-    """How many frames its hops have, from bounce to bounce. Of many, the first four and last two.
-
-    A bounce in each frame is no hop, as of a car that lies, is stuck, or is very fast.
+    unchanged is the scene with the example's own method, if that was changed. + is its car.
     """
-    bounces = [number for number, frame in enumerate(car.frames) if frame.mark_m is not None]
-    hops = [str(after - before) for before, after in pairwise(bounces) if after - before > 1]
-    if not hops:
-        return "no hop"
-    if len(hops) > 6:
-        hops = [*hops[:4], "...", *hops[-2:]]
-    return " ".join(hops)
-
-def end_text(car: Car, column_m: float) -> str:
-    """What the car does at the end of the film."""
-    began_s = rest_began_s(car.track, car.frames, column_m)
-    if began_s is not None:
-        return f"at rest from {began_s:.2f} s"
-    if any(car.track.has_on_it(frame.x_m) for frame in car.frames[-10:]):
-        return "still moves"
-    return "is beyond a wall"  # in all of its last ten frames, not only after a bounce
-
-def off_text(car: Car, true_frames: list[Frame]) -> str:
-    """How far the car was at most from its true car."""
-    off_m = furthest_m(car.frames, true_frames)
-    little_m = float(f"{car.track.length_m() / 2000:.1g}")  # 1 mm on the lesson's track
-    return f"under {little_m:g} m" if off_m < little_m else f"{off_m:.4g} m"
-
-def film_verdict(car: Car, scene: Scene) -> str:
-    """The verdict on the first SPAN_S. To a shorter film planned frames are added."""
-    judged = Car(car.track)
-    judged.frames = list(car.frames)
-    while judged.frames[-1].t_s < SPAN_S - ROUND_OFF_S:
-        judged.move(planned_dt_s(scene, len(judged.frames)))
-    # The frames that began before the time was over.
-    frames = [each for each in judged.frames if each.t_s - each.dt_s < SPAN_S - ROUND_OFF_S]
-    return verdict(car.track, frames, beside(frames, truth_of(car.track)), scene.column_m())
-
-def tell_cars(cars: dict[str, Car], scene: Scene, unchanged: Scene | None) -> None:
-    """Print two tables of the cars, and whether the * is right."""
-    column_m = scene.column_m()
-    rows, ends = [], []
-    verdicts = {}  # of the cars that are no true cars, by their marks
-    true_frames = {}  # of the true cars, by their tracks: most cars have the same true car
-    for mark, car in reversed(cars.items()):
-        off = "the truth"
-        end = f"{mark} {end_text(car, column_m) + ';':23}{hops_text(car)}"
-        truth = truth_of(car.track)
-        if car.track != truth:
-            if truth not in true_frames:
-                true_frames[truth] = beside(car.frames, truth)
-            off = off_text(car, true_frames[truth])
-            verdicts[mark] = film_verdict(car, scene)
-            name, _ = VERDICTS[verdicts[mark]]
-            end = f"{end + '; ':50}{name}"
-        rows.append(f"{mark} {method_text(car.track):20}{off:>15}{energies_text(car)}")
-        ends.append(end)
-    print()
-    print("                        furthest from     energy in J/kg (0: lies at its floor)")
-    print("                         its true car     first     least      most      last")
-    print(*rows, sep="\n")
-    print()
-    print(f"  at the film's end;     each hop in frames;      verdict on the first {SPAN_S} s")
-    print(*ends, sep="\n")
-    answer = "By definition: it is the true car."
-    if "*" in verdicts:
-        name, meaning = VERDICTS[verdicts["*"]]
-        yes_or_no = "Yes" if verdicts["*"] == "-" else "No"
-        is_short = cars["*"].frames[-1].t_s < SPAN_S - ROUND_OFF_S
-        computed = " (computed on after the film's end)" if is_short else ""
-        answer = f"{yes_or_no}. In its first {SPAN_S} s{computed} it {name}: {meaning}."
+    cars = {}
+    if scene.show_methods:
+        for letter, method in METHODS.items():
+            cars[letter] = Car(with_method(scene, *method))
+    cars["o"] = Car(truth_of(scene))
     if unchanged is not None:
-        before = cars.get("+", Car(unchanged.track))  # with other frames there is no +
-        name, _ = VERDICTS[film_verdict(before, unchanged)]
-        answer += f" Without your change it {name}."
-    say(f"Is the * right? {answer} (A column is 1/m_to_px, {column_m:.2g} m.)")
+        cars["+"] = Car(unchanged)
+    cars["*"] = Car(scene)
+    return cars
 
-def film(wanted: Film) -> None:
+def film(number: int, scene: Scene, cars: dict[str, Car], texts: Example, is_fast: bool,
+         max_frames: int) -> None:
     """Say what to look for, leave time to guess, show the film, and say what was to be seen."""
-    scene, texts = wanted.scene, wanted.texts
-    title = texts.title
-    if wanted.number in EXAMPLES:
-        title = f"Example {wanted.number}: {texts.title}"
-    say(", ".join([title, *wanted.typed]))
-    say(scene_text(scene))
-    drawn = fitted(scene, wanted.has_details)
+    say(f"{number}, {texts.title}: {settings_text(scene, [*OF_THE_TRACK, 'fps_target'])}")
+    drawn = fitted(scene)
     if drawn.width_px < scene.width_px:
-        say(f"The picture is drawn {drawn.width_px} columns wide, because the terminal is narrow.")
-    view = View(drawn, wanted.has_details, has_colours() and not wanted.is_fast)
-    cars = cars_of(scene, wanted.plus)
-    taking = nullcontext() if wanted.is_fast else taken_keys()
+        say(f"The terminal is narrow, so the picture is drawn {drawn.width_px} columns wide. A "
+            f"column is {drawn.column_m():.2g} m wide there.")
+    if scene.show_methods:
+        say(LEGEND)
+    if "+" in cars:
+        say("+ is the car with the example's own method. You have changed the method of the *.")
+    say(texts.look_for)
+    taking = nullcontext() if is_fast else taken_keys()
     with taking as keys:
-        if keys is None:
-            say(texts.look_for)
-        else:
-            for text in keys.texts_before(texts.look_for):
-                say(text)
+        if keys is not None:
+            say(keys.help_text())
             keys.leave_time()
         print()
-        run(cars, scene, view, wanted.max_frames, keys)
-    if len(cars["*"].frames) == 1:
+        run(cars, drawn, max_frames, keys)
+    if len(cars["*"].places_m) == 1:
         return  # it was ended before it began
-    tell_cars(cars, scene, wanted.unchanged)
-    if not wanted.is_fast:
-        say_after(wanted)
+    print_table(cars)
+    if texts.seen and not is_fast:
+        print()
+        say(texts.seen)
+        print(f"Next: {PYTHON} airtrack.py {number + 1 if number + 1 in EXAMPLES else 'chart'}")
 
-def say_after(wanted: Film) -> None:
-    """Say what was to be seen, and what comes next."""
+def print_table(cars: dict[str, Car]) -> None:
+    """Print what the cars have done, and whether the * was right."""
+    truth, column_m = cars["o"], cars["*"].scene.column_m()
+    filmed_s = (len(truth.places_m) - 1) / truth.scene.fps_target
+    late_s = min(LATE_S, filmed_s)
     print()
-    if wanted.texts.seen:
-        say(wanted.texts.seen)
-    else:
-        say("At which frame rates is which method right? See the map:")
-        words = [word for word in wanted.typed if word.partition("=")[0] in COMPARED]
-        print(PYTHON, "airtrack.py stability", wanted.number, *words)
-    following = wanted.number + 1 if wanted.number + 1 in EXAMPLES else "chart"
-    say(f"Next: {PYTHON} airtrack.py {following}")
+    print("                      furthest from   energy in J/kg (0: it lies still)")
+    print(f"                       the true car     start  mean of last {late_s:3.2g} s  at rest")
+    for mark, car in reversed(cars.items()):
+        scene, began = car.scene, car.rest_began()
+        method = f"{scene.motion} + {scene.correction}"
+        off = f"{round(furthest_m(car, truth), 4):.4g} m"
+        if scene == truth.scene:
+            off = "the truth"
+        first_energy = scene.energy(scene.x_m, scene.v_mps)
+        energies = f"{first_energy:9.3g} {late_energy(car):19.3g}"
+        rest = "not yet" if began is None else f"from frame {began}"
+        print(f"{mark} {method:19} {off:>12} {energies}  {rest}")
+    columns_off = furthest_m(cars["*"], truth) / column_m
+    answer = "Yes." if columns_off <= 1 else f"No: up to {columns_off:.3g} columns away."
+    say(f"Was the * always within a column ({column_m:.2g} m) of the true car? {answer}")
 
 # ==== 10. The command line ======================================================================
 # What may be typed, and what does the user want?
 
-class Refused(ValueError):
+class Refused(Exception):
     """What was typed is not allowed."""
 
-FRAMES = 50_000  # a film that nobody stops ends then
 COMMANDS = {"chart": chart, "stability": stability}
-OF_THE_TRACK = {each.name: each for each in fields(Track)}
-OF_THE_FILM = {each.name: each for each in fields(Scene) if each.name != "track"}
-OF_THE_FRAMES = ["fps_target", "use_observed_dt", "jitter"]
-SETTINGS = OF_THE_TRACK | OF_THE_FILM
 # Chart and map take these. They choose methods and frame rates themselves.
 COMPARED = [name for name in OF_THE_TRACK if name not in ("motion", "correction")]
 COMPARED += ["m_to_px", "width_px"]
+# Whoever sets one of these changes what happens, and not only the picture.
+MOVING = [*OF_THE_TRACK, "fps_target", "use_observed_dt", "jitter"]
+MAX_FRAMES = 50_000  # enough for each example. It ends a --fast film that would go on for ever.
 
 # What people type because other programs have it, and what it is called here:
 OTHER_NAMES = {
-    "fps": "fps_target", "dt": "fps_target", "time": "fps_target", "g": "a_mps2",
-    "gravity": "a_mps2", "a": "a_mps2", "acceleration": "a_mps2", "left": "left_edge_m",
-    "right": "right_edge_m", "x": "x_m", "y": "x_m", "position": "x_m", "h": "x_m",
-    "height": "x_m", "v": "v_mps", "vx": "v_mps", "vy": "v_mps", "speed": "v_mps",
-    "velocity": "v_mps", "e": "CR", "restitution": "CR", "bounciness": "CR", "elasticity": "CR",
-    "zoom": "m_to_px", "euler": "motion=forward", "rk4": "motion=exact", "map": "stability",
-    "details": "d", "help": "-h", "fast": "--fast", "frames": "--frames"}
+    "fps": "fps_target", "dt": "fps_target", "g": "a_mps2", "gravity": "a_mps2", "a": "a_mps2",
+    "acceleration": "a_mps2", "left": "left_edge_m", "right": "right_edge_m", "x": "x_m",
+    "height": "x_m", "v": "v_mps", "speed": "v_mps", "velocity": "v_mps", "e": "CR",
+    "elasticity": "CR", "restitution": "CR", "bounciness": "CR", "zoom": "m_to_px",
+    "map": "stability", "d": "d", "details": "d"}
 
 def allowed_text(name: str) -> str:
     """What a setting may be, in words."""
-    about = SETTINGS[name].metadata
-    if "choices" in about:
-        *others, last = [str(each) for each in about["choices"]]
+    default, allowed = SETTINGS[name].default, SETTINGS[name].metadata["allowed"]
+    if isinstance(default, str | bool):
+        *others, last = [str(each) for each in allowed]
         return f"{', '.join(others)} or {last}"
-    least, largest = about["range"]
-    kind = "a whole number" if name == "width_px" else "a number"
-    return f"{kind} from {least} to {largest}"
-
-def fault_text(name: str, text: str) -> str:
-    """What is said of a value that a setting may not have."""
-    return f"{name} must be {allowed_text(name)}, not {text}"
+    kind = "a whole number" if isinstance(default, int) else "a number"
+    return f"{kind} from {allowed[0]} to {allowed[1]}"
 
 def value_of(name: str, text: str) -> Any:
-    """The value of a setting, from what a user typed after NAME=. Raises Refused."""
-    if "choices" in SETTINGS[name].metadata:
-        for each in SETTINGS[name].metadata["choices"]:
+    """The value of a setting, from what was typed after NAME=. Raises Refused."""
+    default, allowed = SETTINGS[name].default, SETTINGS[name].metadata["allowed"]
+    if isinstance(default, str | bool):
+        for each in allowed:
             if text.lower() == str(each).lower():
                 return each
-        return text  # check() refuses it
-    if "," in text:
-        raise Refused(f"{fault_text(name, text)}: write a decimal point, not a comma")
-    try:
-        return int(text) if name == "width_px" else float(text)
-    except ValueError:
-        raise Refused(fault_text(name, text)) from None
+    else:
+        digits = text.replace("\N{MINUS SIGN}", "-")  # it stands in what is copied from a page
+        with suppress(ValueError):
+            value = int(digits) if isinstance(default, int) else float(digits)
+            if allowed[0] <= value <= allowed[1]:
+                return value
+    raise Refused(f"{name} must be {allowed_text(name)}, not {text or 'nothing'}")
 
-def check(name: str, value: Any) -> None:
-    """Raise Refused if the setting may not have this value."""
-    about = SETTINGS[name].metadata
-    if "choices" in about:
-        if value not in about["choices"]:
-            raise Refused(fault_text(name, value))
-    elif not about["range"][0] <= value <= about["range"][1]:
-        raise Refused(fault_text(name, f"{value:.10g}"))
+def hint(word: str) -> str:
+    """What may have been meant by an unknown word."""
+    meanings = {each.lower(): each for each in [*SETTINGS, *COMMANDS]} | OTHER_NAMES
+    meanings |= {each: f"motion={each}" for each in MOTIONS}
+    meanings |= {each: f"correction={each}" for each in ALL_CORRECTIONS}
+    name = word.lstrip("-").partition("=")[0].lower()
+    near = difflib.get_close_matches(name, meanings, n=1, cutoff=0.7)
+    if not near:
+        return "-h lists all that there are"
+    meant = meanings[near[0]]
+    if meant in SETTINGS:
+        meant = f"{meant}=VALUE ({SETTINGS[meant].metadata['meaning']}: {allowed_text(meant)})"
+    return f"did you mean {meant}?"
 
-def check_pairs(track: Track) -> None:
-    """Raise Refused if two settings of the track exclude each other."""
-    left_m, right_m = track.left_edge_m, track.right_edge_m
-    if right_m - left_m < 0.01 - 1e-9:  # round-off: 2.21 - 2.2 is a little less than 0.01
-        raise Refused(f"right_edge_m must be left_edge_m + 0.01 or more, so from "
-                      f"{left_m + 0.01:.10g} on, not {right_m}")
-    if track.correction not in EXACT_ONLY:
-        return
-    condition = f"with correction={track.correction}"
-    if track.motion != "exact":
-        raise Refused(f"motion must be exact {condition}, not {track.motion}: choose "
-                      "motion=exact or another correction")
-    if not track.has_on_it(track.x_m):
-        raise Refused(f"x_m must be from {left_m} to {right_m} {condition}, not {track.x_m}: "
-                      "choose a start on the track or another correction")
+def read_words(words: list[str]) -> tuple[str, int, dict[str, Any]]:
+    """Sort what was typed: what to show, of which number, with which settings. Raises Refused."""
+    shows: list[str] = []
+    numbers: list[int] = []
+    typed: dict[str, Any] = {}
+    for word in words:
+        name, equals, text = word.partition("=")
+        if name in SETTINGS and equals:
+            typed[name] = value_of(name, text)
+        elif word == "d":
+            typed["show_details"] = True
+        elif word in COMMANDS:
+            shows.append(word)
+        elif word.isdecimal():
+            numbers.append(int(word))
+        else:
+            raise Refused(f"unknown word {word}: {hint(word)}")
+    if len(shows) > 1:
+        raise Refused(f"one command at a time, not {' and '.join(shows)}")
+    if len(numbers) > 1:
+        raise Refused(f"one EXAMPLE at a time, not {numbers[0]} and {numbers[1]}")
+    show, number = "film", 1
+    if shows:
+        show, number = shows[0], 12
+    if numbers:
+        number = numbers[0]
+    return show, number, typed
 
 def scene_of(settings: dict[str, Any]) -> Scene:
-    """The scene with these settings. Raises Refused, a ValueError, for what is not allowed."""
-    for name, value in settings.items():
-        check(name, value)
-    track = Track(**{name: settings[name] for name in settings if name in OF_THE_TRACK})
-    check_pairs(track)
-    scene = Scene(track, **{name: settings[name] for name in settings if name in OF_THE_FILM})
+    """The scene with these settings. Raises Refused if two of them exclude each other."""
+    scene = Scene(**settings)
+    if scene.length_m() < 0.01 - 1e-9:  # round-off: 2.21 - 2.2 is a little less than 0.01
+        raise Refused(f"right_edge_m={scene.right_edge_m} must be 0.01 or more to the right of "
+                      f"left_edge_m={scene.left_edge_m}")
+    if scene.correction in EXACT_ONLY and scene.motion != "exact":
+        raise Refused(f"correction={scene.correction} needs motion=exact")
+    if scene.correction in EXACT_ONLY and not scene.has_on_it(scene.x_m):
+        raise Refused(f"correction={scene.correction} needs an x_m on the track, not {scene.x_m}")
     if "m_to_px" in settings:
         return scene
-    # Nobody chose a zoom: take one that shows the right wall.
-    shown_m = track.right_edge_m - scene.first_m()
-    return replace(scene, m_to_px=min(scene.m_to_px, (scene.width_px - 1) / shown_m))
+    # Neither the user nor the example chose a zoom: take one that shows the right wall.
+    fitting = (scene.width_px - 1) / (scene.right_edge_m - scene.first_m())
+    return replace(scene, m_to_px=min(scene.m_to_px, fitting))
 
-def fault_of(word: str) -> str:
-    """What is wrong with an unknown word, and what may have been meant by it."""
-    name = re.split("[=:]", word)[0].lstrip("-")
-    if name in SETTINGS:  # as in CR 0.7, CR = 0.7, CR:0.7 or --CR 0.7
-        return f"write {name}=VALUE as one word: {name} must be {allowed_text(name)}"
-    # What is meant, by what may be typed:
-    hints = OTHER_NAMES | {each.lower(): each for each in [*SETTINGS, *COMMANDS, "d"]}
-    hints |= {each: f"motion={each}" for each in MOTIONS}
-    hints |= {each: f"correction={each}" for each in ALL_CORRECTIONS}
-    # With a lower cutoff more hints are wrong: a_mps2 for grafik, as that is like gravity.
-    near = difflib.get_close_matches(name.lower(), hints, n=1, cutoff=0.7)
-    if not near:
-        return f"unknown word {word}: -h lists all that there are"
-    meant = hints[near[0]]
-    if meant in SETTINGS:
-        meant = f"{meant}=VALUE ({SETTINGS[meant].metadata['meaning']})"
-    return f"unknown word {word}: did you mean {meant}?"
+def compare(command: str, number: int, typed: dict[str, Any]) -> None:
+    """Show the chart or the map of an example, or of one's own scene. Raises Refused."""
+    example = EXAMPLES.get(number, OWN_SCENE)
+    kept = {name: value for name, value in example.settings.items() if name in COMPARED}
+    scene = scene_of(kept | typed)
+    say(f"{command} {number}, {example.title}: {settings_text(scene, COMPARED)}")
+    COMMANDS[command](scene)
+    if command == "chart":
+        words = [f"{name}={value}" for name, value in typed.items()]
+        print("Next:", PYTHON, "airtrack.py stability", number, *words)
+
+def show_film(number: int, typed: dict[str, Any], is_fast: bool, max_frames: int) -> None:
+    """Show the film of an example, perhaps a changed one, or of one's own scene. Raises Refused."""
+    texts = EXAMPLES.get(number, OWN_SCENE)
+    original = scene_of(texts.settings)
+    scene = scene_of(texts.settings | typed)
+    unchanged = None
+    if number in EXAMPLES and differ(scene, original, MOVING):
+        # Nobody knows what is to be seen there. So the film shows the true car, and asks.
+        texts = CHANGED
+        scene = replace(scene, show_exact_mark=typed.get("show_exact_mark", True))
+        if differ(scene, original, ["motion", "correction"]):
+            unchanged = with_method(scene, original.motion, original.correction)
+    film(number, scene, cars_of(scene, unchanged), texts, is_fast, max_frames)
+
+def differ(one: Scene, other: Scene, names: list[str]) -> bool:
+    """Whether the scenes differ in one of these settings."""
+    return any(getattr(one, name) != getattr(other, name) for name in names)
+
+def refuse_film_words(command: str, options: argparse.Namespace) -> None:
+    """Raise Refused if something was typed that only a film takes."""
+    for_films = []
+    for word in options.words:
+        name = word.partition("=")[0]
+        if word == "d" or (name in SETTINGS and name not in COMPARED):
+            for_films.append(word)
+    if options.fast:
+        for_films.append("--fast")
+    if options.frames != MAX_FRAMES:
+        for_films.append("--frames")
+    if for_films:
+        raise Refused(f"{command} takes no {for_films[0]}. It chooses methods and frame rates "
+                      f"itself, draws no film, and takes an EXAMPLE and {', '.join(COMPARED)}")
+
+def carry_out(options: argparse.Namespace) -> None:
+    """Show what is asked for. Raises Refused before it shows anything."""
+    show, number, typed = read_words(options.words)
+    if show == "film":
+        show_film(number, typed, options.fast, options.frames)
+    else:
+        refuse_film_words(show, options)
+        compare(show, number, typed)
+
+def frame_count(text: str) -> int:
+    """What was typed after --frames. argparse tells the user what this raises."""
+    if text.isdecimal() and int(text) > 0:
+        return int(text)
+    raise argparse.ArgumentTypeError(f"N must be a whole number from 1 on, not {text}")
 
 def epilog() -> str:
     """What -h shows at its end: the examples, the methods and the settings."""
-    lines = ["examples (any other whole number is for a scene of your own):"]
+    lines = ["examples (any larger number is for a scene of your own):"]
     lines += [f"  {number:2}  {example.title}" for number, example in EXAMPLES.items()]
     lines += ["", "motions and corrections:"]
     for name, method in [*MOTIONS.items(), *CORRECTIONS.items(), ("replay", replay)]:
@@ -1317,137 +1123,35 @@ def epilog() -> str:
         lines.append(textwrap.fill(row, 80, subsequent_indent=" " * 12))
     lines += ["", "settings: default, meaning and what is allowed"]
     for name, each in SETTINGS.items():
-        row = f"  {name:20}{each.default!s:9}{each.metadata['meaning']} ({allowed_text(name)})"
-        lines.append(textwrap.fill(row, 80, subsequent_indent=" " * 31))
+        lines.append(f"  {name:20}{each.default!s:9}{each.metadata['meaning']}")
+        lines.append(f"{'':20}({allowed_text(name)})")
     return "\n".join(lines)
 
-def frames_number(text: str) -> int:
-    """The N of --frames N."""
-    if not re.fullmatch("[0-9]{1,9}", text) or int(text) == 0:
-        raise argparse.ArgumentTypeError(
-            f"N must be a whole number from 1 to 999999999, not {text}")
-    return int(text)
-
-def make_parser() -> argparse.ArgumentParser:
-    """What argparse needs to know of the command line. It adds -h by itself."""
+def main(argv: list[str] | None = None) -> int:
+    """Do what argv or, without it, the command line asks for. Returns the exit status."""
     parser = argparse.ArgumentParser(
         prog="airtrack.py", description=__doc__, epilog=epilog(),
         formatter_class=argparse.RawDescriptionHelpFormatter)  # it leaves our lines as they are
     parser.add_argument("words", nargs="*", metavar="WORD", help="see above")
-    parser.add_argument("-d", dest="details", action="store_true", help="as the word d")
     parser.add_argument("--fast", action="store_true",
-                        help="no waiting, no keys, no colours, no text after the tables")
-    parser.add_argument("--frames", metavar="N", type=frames_number,
-                        help=f"stop after N frames; without it, after {FRAMES}")
-    parser.add_argument("-help", action="help", help=argparse.SUPPRESS)
-    return parser
-
-class Words(NamedTuple):
-    """The words of the command line, sorted."""
-
-    command: str  # chart or stability, or nothing for a film
-    number: int  # of the example
-    texts: dict[str, str]  # what was typed for each setting, by its name
-    has_d: bool
-
-    def typed(self) -> list[str]:
-        """The settings as they were typed."""
-        return [f"{name}={text}" for name, text in self.texts.items()]
-
-    def changes(self) -> dict[str, Any]:
-        """The values of these settings. Raises Refused."""
-        return {name: value_of(name, text) for name, text in self.texts.items()}
-
-def sorted_words(words: list[str]) -> Words:
-    """Sort the words. Raises Refused for one that is wrong."""
-    commands, numbers, texts, has_d = [], [], {}, False
-    for word in words:
-        name, _, text = word.partition("=")
-        if word in COMMANDS:
-            commands.append(word)
-        elif re.fullmatch("-?[0-9]{1,9}", word):
-            numbers.append(word)
-        elif word == "d":
-            has_d = True
-        elif name in SETTINGS and text.strip():
-            texts[name] = text.strip()
-        else:
-            raise Refused(fault_of(word))
-    if len(commands) > 1 or len(numbers) > 1:
-        found = ", ".join([*commands, *numbers])
-        raise Refused(f"one command and one EXAMPLE at a time, not {found}")
-    command = commands[0] if commands else ""
-    number = 12 if commands else 1
-    if numbers:
-        number = int(numbers[0])
-    return Words(command, number, texts, has_d)
-
-def film_of(words: Words, options: argparse.Namespace) -> Film:
-    """The film that was asked for. Raises Refused."""
-    example = EXAMPLES.get(words.number, OWN_SCENE)
-    changes = words.changes()
-    as_it_is = {name: each.default for name, each in SETTINGS.items()} | example.settings
-    changed = [name for name, value in changes.items() if value != as_it_is[name]]
-    changes_frames = any(name in OF_THE_FRAMES for name in changed)
-    changes_car = any(name in OF_THE_TRACK for name in changed)
-    settings = example.settings | changes
-    texts, unchanged, plus = example, None, None
-    if example is not OWN_SCENE and (changes_car or changes_frames):
-        # Nobody knows what happens there. So the film shows the true car.
-        settings = {"show_exact_mark": True} | settings
-        texts = CHANGED_FRAMES
-        unchanged = scene_of(example.settings)
-        if not changes_frames:  # a + is moved in the same frames as the *
-            texts = CHANGED
-            plus = unchanged.track
-    has_details = words.has_d or options.details or example.has_details
-    max_frames = FRAMES if options.frames is None else options.frames
-    return Film(words.number, words.typed(), scene_of(settings), texts, unchanged, plus,
-                has_details, options.fast, max_frames)
-
-def compared_scene(words: Words, options: argparse.Namespace) -> Scene:
-    """The scene of a chart or a map. Raises Refused for what these do not take."""
-    changes = words.changes()
-    refused = [name for name in changes if name not in COMPARED]
-    if refused:
-        raise Refused(f"{words.command} takes no {refused[0]}: it chooses methods and frame "
-                      f"rates itself, and takes an EXAMPLE and {', '.join(COMPARED)}")
-    if words.has_d or options.details or options.fast or options.frames is not None:
-        raise Refused(f"{words.command} is no film: it takes no d, --fast or --frames")
-    settings = EXAMPLES.get(words.number, OWN_SCENE).settings | changes
-    scene = scene_of({name: settings[name] for name in COMPARED if name in settings})
-    # The truth of a start beyond a wall is a start at the wall.
-    track = replace(scene.track, x_m=scene.track.nearest_m(scene.track.x_m))
-    return replace(scene, track=track)
-
-def show(options: argparse.Namespace, unknown_options: list[str]) -> None:
-    """Show what is asked for. Raises Refused before it shows anything."""
-    words = sorted_words([*unknown_options, *options.words])
-    if words.command:
-        scene = compared_scene(words, options)
-        COMMANDS[words.command](scene, " ".join([str(words.number), *words.typed()]))
-    else:
-        film(film_of(words, options))
-
-def main(argv: list[str] | None = None) -> int:
-    """Do what argv or, without it, the command line asks for. Returns the exit status."""
-    parser = make_parser()
+                        help="no waiting, no keys, no text after the table")
+    parser.add_argument("--frames", metavar="N", type=frame_count, default=MAX_FRAMES,
+                        help="stop after N frames; without it, after %(default)s")
     options, unknown_options = parser.parse_known_intermixed_args(argv)
+    options.words = [*unknown_options, *options.words]  # so that hint() sees --CR, too
     try:
-        show(options, unknown_options)
+        carry_out(options)
         sys.stdout.flush()
     except Refused as fault:
         parser.error(str(fault))  # this prints the text and ends the program with status 2
     except KeyboardInterrupt:
         return 130  # the status of a program that Ctrl-C has ended
-    except OSError as fault:  # the output takes no more
+    except OSError as fault:  # a full disk, or a pipe that nobody reads any more
         # Python prints what is left when it ends. From here on this goes nowhere.
-        nowhere = os.open(os.devnull, os.O_WRONLY)
-        os.dup2(nowhere, sys.stdout.fileno())
-        if isinstance(fault, BrokenPipeError):
-            return 0  # nobody reads any more, as after | head
-        print(f"airtrack.py: error: {fault}", file=sys.stderr)  # the disk is full, say
-        return 2
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        if not isinstance(fault, BrokenPipeError):  # | head has read enough: this is no fault
+            print(f"airtrack.py: error: {fault}", file=sys.stderr)
+            return 2
     return 0
 
 if __name__ == "__main__":

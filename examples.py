@@ -5,7 +5,6 @@ shows. The keys work in a little pygame window and in the terminal, whichever ha
 came for the physics, you need not read about the keys.
 """
 
-import importlib.util
 import os
 import shutil
 import signal
@@ -13,8 +12,8 @@ import sys
 import time
 import warnings
 from collections.abc import Iterator
-from contextlib import contextmanager, nullcontext, suppress
-from typing import Any, NamedTuple, NoReturn
+from contextlib import contextmanager, nullcontext
+from typing import Any, NamedTuple
 
 if sys.platform == "win32":
     import msvcrt
@@ -33,7 +32,6 @@ class Example(NamedTuple):
     settings: dict[str, Any]
     look_for: str  # before the film, without the answer
     seen: str  # after it
-    has_details: bool = False  # whether its film shows them anyway
 
 ELASTIC = {"x_m": 2.0, "a_mps2": -2.0, "CR": 1.0, "show_start_mark": True}
 COARSE = ELASTIC | {"fps_target": 10.0}
@@ -46,13 +44,13 @@ EXAMPLES = {
         "x_m": 11.0, "v_mps": 17.0, "a_mps2": -2.0, "CR": 0.8,
         "left_edge_m": 0.5, "right_edge_m": 17.5, "m_to_px": 7.0, "width_px": 126,
         "fps_target": 1 / 0.015, "correction": "surface", "auto_off": False,
-        "show_collision_mark": False},
+        "show_collision_mark": False, "show_details": True},
         "An air track: * is the car, | are the walls, and each line is one moment. Where will the "
         "car be after 45 s?",
         "At the left wall: the acceleration points there. Each bounce takes 20 % of its speed. "
         "After three bounces at the right wall it does not get there any more. Then each hop from "
         "the left wall is shorter than the one before. From about t = 44 s on each frame moves it "
-        "a little into the wall and puts it back.", has_details=True),
+        "a little into the wall and puts it back."),
     1: Example("A first look", {
         "x_m": 2.0, "a_mps2": -1.5, "CR": 0.7, "show_collision_mark": False},
         "Watch the bottom row only. There the car (*) moves between its walls (|). At each "
@@ -130,14 +128,14 @@ EXAMPLES = {
         "Example 8 with irregular frames: each lasts from 0.075 to 0.125 s. How near to the start "
         "mark does the car come back? Watch for half a minute.",
         "It comes back elsewhere each time. First it turns at about 1.81 m, then at 1.68 m and "
-        "1.59 m. The rebound gives back more energy if the car is found deeper in the left wall. "
+        "1.6 m. The rebound gives back more energy if the car is found deeper in the left wall. "
         "In irregular frames the depth is irregular, too. If you run the film again, the first "
         "turns are nearly the same. The later ones are not: the frames of a computer are never "
         "quite the same, and most bounces make this difference larger."),
     10: Example("The exact solution", EXACT,
-        "Only 10 FPS, but exact formulas. How near to the start mark does the car come back? "
-        "Begin with s, and press it until you see the 0 of the first bounce, in line 14. Then p "
-        "lets the film go on.",
+        "Only 10 FPS, but exact formulas. How near to the start mark does the car come back? If "
+        "you have keys, begin with s, and press it until you see the 0 of the first bounce, in "
+        "line 14. Then p lets the film go on.",
         "It comes back to the start mark, the dots at 2 m, every time. The car moves by the "
         "formulas of kinematics. The correction, rewind, works out at what moment of the frame "
         "the car met the wall, and lets it bounce at that moment. The 0 in frame 14 shows where "
@@ -152,13 +150,13 @@ EXAMPLES = {
         "Example 11, but the car keeps only 80 % of its speed in a bounce. The bounces come "
         "faster and faster. Is there a last one? When does the car rest?",
         "There is no last bounce. In truth the car bounces infinitely often before t = 11.91 s, "
-        "the Zeno point, and then it lies still. The film calls the * at rest from 12.10 s on. "
+        "the Zeno point, and then it lies still. The film calls the * at rest from frame 121 on. "
         "But it never lies still: to come to rest it would need infinitely many bounces in a "
         "frame, and rewind can settle only one. With auto_off=False the car makes hops of some "
         "mm for ever, too low to see. With correction=replay it lies still from the Zeno point on. "
         "Rewind is good enough for this scene: until the film ends it is at most about 4.2 mm "
-        "off, less than a quarter of a column. On a busy computer all these figures may be a "
-        "little different."),
+        "off, less than a quarter of a column. These figures differ a little from run to run, and "
+        "on a busy computer the film may stop much later."),
     13: Example("Forward Euler beside the truth", {
         "x_m": 0.25, "v_mps": 2.48, "a_mps2": -2.0, "CR": 1.0, "motion": "forward",
         "fps_target": 10.0, "show_exact_mark": True},
@@ -199,15 +197,15 @@ EXAMPLES = {
         "to 1.8 m within 20 s. The motion is exact, so the error comes from the rebound. The "
         "acceleration points to the left wall. There the rebound puts the car up the track, "
         "against the acceleration, and does not slow it. So the car gains energy. At the right "
-        "wall it loses some of it. The table tells the least and the most energy of the *. With "
+        "wall it loses some of it. The table tells its mean energy in the last 5 s. With "
         "correction=conserve the energy is right, and the car comes back to the start mark each "
         "time, but each bounce comes up to a frame late. With correction=rewind the * stays on "
         "the o."),
     18: Example("The exact solution at 4 FPS", {
         "x_m": 0.65, "v_mps": 5.0, "a_mps2": -8.0, "CR": 1.0, "motion": "exact",
         "correction": "rewind", "fps_target": 4.0, "show_exact_mark": True},
-        "Press s four times: the first s begins the film. Watch the right wall. What does the o "
-        "do there, and what does the *?",
+        "If you have keys, press s four times: the first s begins the film. Watch the right wall. "
+        "What does the o do there, and what does the *?",
         "By frame 3 the o has bounced off the right wall. The * has turned without a bounce, and "
         "in frame 4 they are about 0.4 m apart. In frame 3 the move goes 1 cm beyond the wall and "
         "comes back before it ends. So no collision is found: a missed event. A method that looks "
@@ -218,20 +216,20 @@ EXAMPLES = {
         "No speed is lost in a bounce. Count lines from bounce to bounce: how long is each hop of "
         "the *, compared with the one before? With d after the number you see each bounce: there "
         "v jumps up, and in all other lines it falls by 0.20 m/s.",
-        "One line shorter: the hops take 15, 14, 13 ... lines, down to 2 and 1, too low to see. "
-        "In frame 136 the film calls the * at rest. A true car comes back each time as fast as it "
-        "left. The * leaves at 1.502, 1.498, 1.302, 1.298 ... m/s, so it comes back slower, by "
-        "0.004 and 0.196 m/s in turn. (Hops of one line begin at 0.098 and 0.102 m/s in turn: the "
-        "car lies, but its velocity is never 0.) With motion=exact it comes back faster, by 0.196 "
-        "and 0.004 m/s in turn. Then the hops take 18, 19, 20 ... lines for half a minute, until "
-        "the * meets the right wall."),
+        "One line shorter: the hops take 15, 14, 13 ... lines, down to 2 and 1, too low to see."
+        " In frame 136 the film stops: the * is at rest. A true car comes back each time as "
+        "fast as it left. The * leaves at 1.502, 1.498, 1.302, 1.298 ... m/s, so it comes back "
+        "slower, by 0.004 and 0.196 m/s in turn. (Hops of one line begin at 0.098 and 0.102 m/s"
+        " in turn: the car lies, but its velocity is never 0.) With motion=exact it comes back "
+        "faster, by 0.196 and 0.004 m/s in turn. Then the hops take 18, 19, 20 ... lines for "
+        "half a minute, until the * meets the right wall."),
     20: Example("Hops that lose speed, counted", {
         "x_m": 0.66, "v_mps": 0.75, "a_mps2": -2.0, "CR": 0.8, "motion": "exact",
         "fps_target": 10.0, "show_exact_mark": True},
         "Each bounce takes 20 % of the speed. Which comes to rest, the o or the *? Count the hops "
         "of the * as in example 19. Watch for 10 s.",
         "Only the o comes to rest: in truth it lies still from t = 7.05 s on, after infinitely "
-        "many bounces. (The table calls it at rest from 6.80 s on, because its last hops are too "
+        "many bounces. (The table calls it at rest from frame 66 on, because its last hops are too "
         "low to see.) The hops of the * take 14, 12, 10 lines and, from frame 48 on, 9 for ever. "
         "Each hop ends below the floor, because the bounce is found late. Then the rebound lifts "
         "the car, and does not slow it. So in each hop the car comes back faster than it left: in "
@@ -257,7 +255,7 @@ EXAMPLES = {
         "the true ball. Which of them comes to rest? Watch for eight seconds. (> means: higher "
         "than 27 cm, out of the picture.)",
         "Only the o does: in truth it lies still from t = 4.02 s on. (The table calls it at rest "
-        "from 3.90 s on.) From frame 327 on the * hops for ever, in hops of 16 lines that are "
+        "from frame 234 on.) From frame 327 on the * hops for ever, in hops of 16 lines that are "
         "about 80 mm high. The order of the three lines is to blame. The game repeats gravity, "
         "contact, move, gravity, contact, move ... This is the same as move, gravity, contact, "
         "move, gravity, contact ... So it is forward + surface, which the film draws after each "
@@ -268,68 +266,32 @@ EXAMPLES = {
         "frame 222."),
 }
 
-# These stand for a changed example and for a scene of one's own. Nobody knows what is to be seen
-# there, so the film's own table answers.
+# These texts stand for those of a changed example, and of a scene of one's own. Nobody knows what
+# is to be seen there, so the film's own table answers.
 CHANGED = Example("changed", {},
-    "An o is the true car of the changed scene. A + is the car without your change. If you do "
-    "not see one of them, another mark covers it, or it is out of the picture. (< and > mean: the "
-    "* is out of the picture.) What does your change do to the *? Is the * right: is it always "
-    "within a column of the o?", "")
-CHANGED_FRAMES = Example("with other frames", {},
-    "An o is the true car. If you do not see it, it is under the * or out of the picture. What "
-    "does your change do to the *? Is the * right: is it always within a column of the o?", "")
-OWN_SCENE = Example(f"Your own scene (the examples are 0 to {max(EXAMPLES)})", {
+    "The o is the true car. Where you see no o, it is under another mark or out of the picture. "
+    "What does your change do to the *? Is it always within a column of the o?", "")
+OWN_SCENE = Example(f"your own scene (the examples are 0 to {max(EXAMPLES)})", {
     "show_exact_mark": True},
     "The * is your car, and the o is the true car. Where you see no o, it is under the * or out of "
     "the picture. Does the * stay on the o? Does it come to rest? (Set the scene by NAME=VALUE, as "
     "in a_mps2=-2. Without settings the car stands still.)", "")
 
-# ==== Signals ===================================================================================
-# Ctrl-C, Ctrl-Z, kill and a closed terminal come as signals.
-
-Handler = Any  # a function, SIG_DFL or SIG_IGN
-ENDING_SIGNALS: list[int] = [signal.SIGTERM]
-if sys.platform != "win32":
-    ENDING_SIGNALS += [signal.SIGHUP, signal.SIGQUIT]
-
-@contextmanager
-def handled(numbers: list[int], handler: Handler) -> Iterator[None]:
-    """In the `with` block let handler act on these signals, but not on ignored ones: see nohup."""
-    before = {number: signal.getsignal(number) for number in numbers}
-    before = {number: found for number, found in before.items() if found != signal.SIG_IGN}
-    for number in before:
-        signal.signal(number, handler)
-    try:
-        yield
-    finally:
-        for number, found in before.items():
-            signal.signal(number, found)
-
-def ignore(*_: object) -> None:
-    """Do nothing. (With SIG_IGN, Python would tell of a signal that came just before.)"""
-
-def end_by_signal(number: int, _: object) -> NoReturn:
-    """End the program as shells expect it. What has been taken is given back on the way."""
-    for each in ENDING_SIGNALS:
-        signal.signal(each, ignore)  # a second one comes too late
-    sys.exit(128 + number)
-
 # ==== The terminal's keys =======================================================================
 # Each system has its own way to get keys one by one, without Enter and without showing them.
 
-GONE = "gone"  # stands for a terminal that is no longer there
-ESC = "\x1b"
+Handler = Any  # a function, SIG_DFL or SIG_IGN
 
-def has_terminal() -> bool:
-    """Whether input and output are a terminal from which keys can be taken."""
-    if not (os.isatty(0) and os.isatty(1)):
-        return False
+@contextmanager
+def handled(number: int, handler: Handler) -> Iterator[None]:
+    """Let handler act on this signal in the `with` block."""
+    found = signal.signal(number, handler)
     try:
-        return sys.platform == "win32" or os.tcgetpgrp(0) > 0
-    except OSError:  # it is not this program's own, as after setsid
-        return False
+        yield
+    finally:
+        signal.signal(number, found)
 
-HAS_TERMINAL = has_terminal()
+HAS_TERMINAL = os.isatty(0) and os.isatty(1)
 
 if sys.platform == "win32":
     taken_terminal = nullcontext  # there is nothing to take or to give back
@@ -346,65 +308,49 @@ if sys.platform == "win32":
         return keys
 
 else:
-    def take_terminal() -> None:
-        """Get keys one by one: without Enter, without an echo, and Ctrl-S as a key like others."""
-        mode = termios.tcgetattr(0)
-        mode[tty.IFLAG] &= ~termios.IXON
-        mode[tty.LFLAG] &= ~(termios.ICANON | termios.ECHO)
-        termios.tcsetattr(0, termios.TCSANOW, mode)  # TCSANOW keeps the keys that wait
-
     def terminal_keys() -> list[str]:
         """The keys that were pressed since the last call."""
-        if not HAS_TERMINAL:
+        if not HAS_TERMINAL or not select.select([0], [], [], 0)[0]:
             return []
-        with suppress(termios.error):  # the terminal may be gone
-            take_terminal()  # at each call, because fg does not bring it back
-        if not select.select([0], [], [], 0)[0]:
-            return []
-        try:
-            typed = os.read(0, 1024)
-        except OSError:
-            typed = b""
-        if not typed:
-            return [GONE]
-        # An arrow, for example, begins with Esc. Drop what came from there on.
-        keys, _, _ = typed.decode("ascii", "ignore").partition(ESC)
-        return list(keys)
+        read = os.read(0, 1024)
+        if not read:
+            raise OSError("the terminal is gone")
+        typed = read.decode("ascii", "ignore")
+        return list(typed.partition("\x1b")[0])  # an arrow, for example, begins with Esc: drop it
 
     @contextmanager
     def taken_terminal() -> Iterator[None]:
-        """Whatever ends the `with` block gives the terminal back. (terminal_keys() takes it.)"""
+        """Get keys one by one, without Enter and without an echo. Then give the terminal back."""
         if not HAS_TERMINAL:
             yield
             return
         found = termios.tcgetattr(0)
 
-        def give_back() -> None:
-            """Give it back as it was found. In the background this has been done already."""
-            with suppress(OSError, termios.error):  # the terminal may be gone
-                if os.tcgetpgrp(0) == os.getpgrp():
-                    termios.tcsetattr(0, termios.TCSAFLUSH, found)  # and drop the keys that wait
-
         def stop(number: int, _: object) -> None:
-            """Ctrl-Z: give the terminal back, and stand still until fg."""
-            give_back()
-            with handled([number], signal.SIG_DFL):
+            """Ctrl-Z: give the terminal back, stand still until fg, and take it again."""
+            with handled(signal.SIGTTOU, signal.SIG_IGN):  # the shell may just have taken it
+                if os.tcgetpgrp(0) == os.getpgrp():
+                    termios.tcsetattr(0, termios.TCSANOW, found)
+            with handled(number, signal.SIG_DFL), handled(signal.SIGTERM, signal.SIG_DFL):
                 signal.raise_signal(number)
+                tty.setcbreak(0, termios.TCSANOW)  # in the background this stands still, too
 
-        with handled([signal.SIGTSTP], stop):
-            try:
+        def end(number: int, _: object) -> None:
+            """SIGTERM or SIGHUP: end as a program that a signal has ended."""
+            sys.exit(128 + number)
+
+        try:
+            tty.setcbreak(0, termios.TCSANOW)  # TCSANOW keeps the keys that wait
+            with (handled(signal.SIGTSTP, stop), handled(signal.SIGTERM, end),
+                  handled(signal.SIGHUP, end)):
                 yield
-            finally:
-                with handled(ENDING_SIGNALS, ignore):  # a second signal comes too late
-                    give_back()
+        finally:
+            termios.tcsetattr(0, termios.TCSAFLUSH, found)  # and drop the keys that wait
 
 # ==== The window's keys =========================================================================
 
 CLOSED = "closed"  # stands for a click that closes the window
 WINDOW_TEXT = "Enter: begin   p: pause   s: step   x: quit"
-
-class NoDisplay(Exception):
-    """There is nothing on which a window could be seen."""
 
 class Window:
     """The little pygame window. If it cannot be opened, why_shut says why."""
@@ -413,82 +359,52 @@ class Window:
         self.why_shut = ""
         try:
             self.open()
-        except NoDisplay:
-            self.why_shut = "there is no display"
-        except Exception as fault:  # a broken pygame may raise anything
-            self.why_shut = f"pygame does not work: {fault!r}"
-            if importlib.util.find_spec("pygame") is None:
-                self.why_shut = "pygame is not installed"
+        except Exception as fault:  # no pygame, no display, or a broken pygame
+            self.why_shut = str(fault) or repr(fault)
 
     def open(self) -> None:
         """Open it, and write into it what the keys do."""
         os.environ["SDL_NO_SIGNAL_HANDLERS"] = "1"  # Ctrl-C and the like are for us
-        os.environ.setdefault("SDL_VIDEO_WINDOW_POS", "60,60")  # not over the newest line
         os.environ["PYGAME_HIDE_SUPPORT_PROMPT"] = "1"
-        if sys.platform == "linux":
-            if not os.environ.get("DISPLAY"):
-                raise NoDisplay
-            # SDL, on which pygame stands, would else open an invisible window on a dead display.
+        os.environ.setdefault("SDL_VIDEO_WINDOW_POS", "60,60")  # not over the newest line
+        if sys.platform == "linux":  # without a display SDL would else open an invisible window
             os.environ.setdefault("SDL_VIDEODRIVER", "x11")
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # pygame's own, which do not concern the user
             import pygame
         self.pygame = pygame
         pygame.display.init()  # not pygame.init(): its sound may print errors
-        pygame.font.init()
         if pygame.display.get_driver() in ("dummy", "offscreen"):
-            raise NoDisplay  # these drivers show nothing
+            raise OSError("there is no display")
+        pygame.font.init()
         pygame.display.set_caption(WINDOW_TEXT)
         face = pygame.display.set_mode((300, 20))
         face.fill("white")
         text = pygame.font.Font(None, 20).render(WINDOW_TEXT, True, "black")
         face.blit(text, text.get_rect(center=face.get_rect().center))
-        pygame.display.flip()
 
     def keys(self) -> list[str]:
         """The keys that were pressed since the last call."""
         if self.why_shut:
             return []
         pygame = self.pygame
-        with_another_key = pygame.KMOD_ALT | pygame.KMOD_META | pygame.KMOD_MODE  # Super, AltGr
-        keys = []
-        for event in pygame.event.get():
-            if event.type == pygame.QUIT:
-                keys.append(CLOSED)
-            elif event.type == pygame.VIDEOEXPOSE:
-                pygame.display.flip()  # it was covered by another window
-            elif event.type == pygame.KEYDOWN and not event.mod & with_another_key:
-                keys.append(event.unicode)
-        return keys
-
-    def close(self) -> None:
-        """Close the window."""
-        if not self.why_shut:
-            self.pygame.display.quit()
-
-@contextmanager
-def opened_window() -> Iterator[Window]:
-    """Open the window for the `with` block, and close it after it."""
-    # A display that does not answer hangs pygame, and Python with it. Then only the system's own
-    # handler of Ctrl-C ends the program.
-    with handled([signal.SIGINT], signal.SIG_DFL):
-        window = Window()
-    try:
-        yield window
-    finally:
-        with handled([signal.SIGINT], signal.SIG_DFL):
-            window.close()
+        events = pygame.event.get()
+        if any(event.type == pygame.VIDEOEXPOSE for event in events):
+            pygame.display.flip()  # another window has covered it
+        closed = [CLOSED for event in events if event.type == pygame.QUIT]
+        return closed + [event.unicode for event in events if event.type == pygame.KEYDOWN]
 
 # ==== What the keys do ==========================================================================
 
 CTRL_C = "\x03"
-WHY_QUIT = {"x": "x was pressed", CTRL_C: "Ctrl-C was pressed", ESC: "Esc was pressed",
-            CLOSED: "the window was closed", GONE: "the terminal is gone"}
-CTRL_S, CTRL_Q = "\x13", "\x11"  # a terminal knows them as hold, and go on
+WHY_QUIT = {"x": "x was pressed", CTRL_C: "Ctrl-C was pressed", "\x1b": "Esc was pressed",
+            CLOSED: "the window was closed"}
+PAUSE_KEYS = ("p", "\x13")  # Ctrl-S. A terminal takes it for itself, and holds the film, too.
 BEGIN_KEYS = ("\r", "\n", CTRL_C)
 READING_S = 10.0  # enough for a short question. p holds the text for slower readers.
 READING_WITHOUT_KEYS_S = 3.0  # nobody can begin it earlier with Enter, so do not keep them
 LOOK_S = 0.05  # between two looks at the keys: too short to notice
+
 # Who begins a film by Ctrl-C is greeted with it, as in the lesson that this program follows.
 DIAMOND = "   *\n  * *\n *   *\n  * *\n   *"
 
@@ -497,29 +413,25 @@ class Keys:
 
     def __init__(self, window: Window) -> None:
         self.window = window
-        self.signals: list[str] = []  # Ctrl-C is a signal: kept until the next look
         self.has_begun = False  # before the film some keys do other things
         self.has_begun_by_ctrl_c = False
         self.why_quit = ""  # why the film is to end, or nothing
         self.is_paused = False
         self.steps = 0  # frames to show although the film is paused
-        self.reading_s = READING_S
-        if not HAS_TERMINAL and window.why_shut:
-            self.reading_s = READING_WITHOUT_KEYS_S
+        self.has_keys = HAS_TERMINAL or not window.why_shut
+        self.reading_s = READING_S if self.has_keys else READING_WITHOUT_KEYS_S
 
     def press(self, key: str) -> None:
         """Act on a key."""
         if key in BEGIN_KEYS and not self.has_begun:
             self.has_begun = True
-            self.has_begun_by_ctrl_c = key == CTRL_C
             self.is_paused = False
+            self.has_begun_by_ctrl_c = key == CTRL_C
         elif key in WHY_QUIT:
             self.why_quit = WHY_QUIT[key]
-        elif key in ("p", CTRL_S):
+        elif key in PAUSE_KEYS:
             self.is_paused = not self.is_paused
             self.steps = 0
-        elif key == CTRL_Q:
-            self.is_paused = False
         elif key == "s":
             self.has_begun = True
             self.is_paused = True
@@ -527,87 +439,72 @@ class Keys:
 
     def look(self) -> None:
         """Act on the keys that were pressed since the last look."""
-        signals, self.signals = self.signals, []
-        for key in [*signals, *terminal_keys(), *self.window.keys()]:
+        for key in terminal_keys() + self.window.keys():
             self.press(key.lower())
 
-    def wait(self, due_s: float, number: int, t_s: float) -> bool:
-        """Wait until the frame of this number is due. A key may end the wait: then return False.
+    def wait(self, due_s: float, number: int) -> bool:
+        """Wait until the frame of this number is due. Returns True if a key ended the wait.
 
-        due_s is a moment of time.perf_counter(). t_s is how much time has passed in the film.
+        due_s is a moment of time.perf_counter().
         """
         sys.stdout.flush()
         self.look()
         while not self.is_paused and not self.why_quit:
             left_s = due_s - time.perf_counter()
             if left_s <= 0:
-                return True
+                return False
             time.sleep(min(left_s, LOOK_S))
             self.look()
-        self.hold(f"paused after frame {number - 1}, t = {t_s:.2f} s: p resumes, s steps, x quits")
-        if self.steps > 0:
-            self.steps -= 1
-        return False
+        self.hold(f"paused after frame {number - 1}: p resumes, s steps, x quits")
+        self.steps = max(0, self.steps - 1)
+        return True
 
     def is_held(self) -> bool:
         """Whether it is paused, and nobody has asked for a step or for the end."""
         return self.is_paused and self.steps == 0 and not self.why_quit
 
     def hold(self, text: str) -> None:
-        """While it is held, show the text on a terminal."""
+        """While it is held, show the text on a terminal. The next line covers it."""
         if not self.is_held():
             return
         text = text[:shutil.get_terminal_size().columns - 1]
-        print_for_now(text)
-        try:
-            while self.is_held():
-                time.sleep(LOOK_S)
-                self.look()
-        finally:
-            print_for_now(" " * len(text))
+        if sys.stdout.isatty():
+            print(text, end="\r", flush=True)
+        while self.is_held():
+            time.sleep(LOOK_S)
+            self.look()
+        if sys.stdout.isatty():
+            print(" " * len(text), end="\r", flush=True)
 
-    def texts_before(self, question: str) -> list[str]:
-        """What to say before the film: where the keys are, the question, when the film begins."""
-        places = []
-        if HAS_TERMINAL:
-            places.append("here")
-        if not self.window.why_shut:
-            places.append("in the little window")
-        where = "No keys here: Ctrl-C ends the film."
-        when = f"It begins in {self.reading_s:g} s, or now with Ctrl-C."
-        if places:
-            where = f"Keys {' and '.join(places)}: p pauses the film, s steps, x ends it."
-            when = (f"It begins in {self.reading_s:g} s, or now with Enter or Ctrl-C. "
-                    "p holds the text.")
-        if self.window.why_shut:
-            where += f" (No window: {self.window.why_shut}.)"
-        return [where, question, when]
+    def help_text(self) -> str:
+        """Where the keys are, what they do, and when the film begins."""
+        no_window = f" (No window: {self.window.why_shut}.)" if self.window.why_shut else ""
+        if not self.has_keys:
+            return (f"No keys here.{no_window} The film begins in {self.reading_s:g} s. Then "
+                    "Ctrl-C ends it.")
+        here = ["here"] if HAS_TERMINAL else []
+        there = [] if self.window.why_shut else ["in the little window"]
+        return (f"Keys {' and '.join(here + there)}: p pauses the film, s steps, x ends it."
+                f"{no_window} It begins in {self.reading_s:g} s, or now with Enter or Ctrl-C. "
+                "p holds the text.")
 
     def leave_time(self) -> None:
-        """Leave time to read these texts. Enter and s cut it short."""
+        """Leave time to read what is said before the film. Enter and s cut it short."""
         ends_s = time.perf_counter() + self.reading_s
-        self.look()
         while not self.has_begun and not self.why_quit:
-            if self.is_paused:
-                self.hold("the text is held: p lets go, Enter begins the film, x quits")
-            elif time.perf_counter() >= ends_s:
-                self.has_begun = True
-            else:
-                time.sleep(LOOK_S)
-                self.look()
+            self.look()
+            self.hold("the text is held: p lets go, Enter begins the film, x quits")
+            self.has_begun |= time.perf_counter() >= ends_s
+            time.sleep(LOOK_S)
         if self.has_begun_by_ctrl_c:
             print(DIAMOND)
 
-def print_for_now(text: str) -> None:
-    """Print a text on a terminal, and go back to the start of its line: the next one covers it."""
-    if text and sys.stdout.isatty():
-        print(text, end="\r", flush=True)
-
 @contextmanager
 def taken_keys() -> Iterator[Keys]:
-    """Take window and terminal for a film. Whatever ends the `with` block gives them back."""
-    with opened_window() as window:
-        keys = Keys(window)
-        with (handled([signal.SIGINT], lambda *_: keys.signals.append(CTRL_C)),
-              handled(ENDING_SIGNALS, end_by_signal), taken_terminal()):
-            yield keys
+    """Open the window, and take the terminal. Whatever ends the `with` block gives it back."""
+    # A display that does not answer hangs pygame, and Python with it. Then only the system's own
+    # handler of Ctrl-C ends the program.
+    with handled(signal.SIGINT, signal.SIG_DFL):
+        keys = Keys(Window())
+    with handled(signal.SIGINT, lambda *_: keys.press(CTRL_C)), taken_terminal():
+        yield keys

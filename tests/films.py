@@ -13,7 +13,7 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from airtrack import COMPARED, Car, Track, main, planned_dt_s, scene_of, step, truth_of
+from airtrack import Car, main, scene_of, step, ticks, truth_of
 from examples import EXAMPLES, OWN_SCENE
 
 if sys.platform != "win32":
@@ -38,6 +38,8 @@ class Film(NamedTuple):
     lines: list[str]
     ending: str
     table: list[str]
+    rows: dict[str, str]  # of the table, by their marks
+    answer: str
 
 def shown(words: str) -> Film:
     """What a command line with --fast shows. Empty lines part header, film and table."""
@@ -45,7 +47,10 @@ def shown(words: str) -> Film:
         assert main([*words.split(), "--fast"]) == 0
     header, frames, table = out.getvalue().split("\n\n", 2)
     *lines, ending = frames.splitlines()
-    return Film(" ".join(header.split()), lines, ending, table.splitlines())
+    rows, _, answer = table.partition("Was the *")
+    by_mark = {row[0]: " ".join(row[1:].split()) for row in rows.splitlines()[2:]}
+    return Film(" ".join(header.split()), lines, ending, table.splitlines(), by_mark,
+                " ".join(answer.split()))
 
 def details(line: str) -> tuple[float, float]:
     """x and v in the details behind a line."""
@@ -59,34 +64,27 @@ def environment(**changes: str | None) -> dict[str, str]:
 
 def filmed(number: int, frames: int, **changes: Any) -> Car:
     """The car of an example, or of one's own scene, with changes, after a --fast film."""
-    scene = scene_of(EXAMPLES.get(number, OWN_SCENE).settings | changes)
-    car = Car(scene.track)
-    for frame in range(1, frames + 1):
-        car.move(planned_dt_s(scene, frame))
+    car = Car(scene_of(EXAMPLES.get(number, OWN_SCENE).settings | changes))
+    for dt_s, _ in ticks(car.scene, frames, None):
+        car.move(dt_s)
     return car
 
 def true_m(car: Car) -> list[float]:
     """Where the true car is in each of its frames: in one step from the start."""
-    truth = truth_of(car.track)
-    return [step(truth, truth.x_m, truth.v_mps, frame.t_s)[0] for frame in car.frames]
-
-def errors_m(car: Car) -> list[float]:
-    """How far to the right of its true car it is in each of its frames."""
-    return [frame.x_m - place_m for frame, place_m in zip(car.frames, true_m(car), strict=True)]
+    truth = truth_of(car.scene)
+    found, t_s = [truth.x_m], 0.0
+    for dt_s, _ in ticks(car.scene, len(car.places_m) - 1, None):
+        t_s += dt_s
+        found.append(step(truth, truth.x_m, truth.v_mps, t_s)[0])
+    return found
 
 def furthest_m(car: Car) -> float:
     """How far the car was from its true car at most."""
-    return max(map(abs, errors_m(car)))
-
-def compared(number: int, motion: str, correction: str) -> Track:
-    """An example as chart and map take it, with a method."""
-    settings = EXAMPLES[number].settings
-    kept = {name: settings[name] for name in COMPARED if name in settings}
-    return scene_of(kept | {"motion": motion, "correction": correction}).track
+    return max(abs(x_m - place_m) for x_m, place_m in zip(car.places_m, true_m(car), strict=True))
 
 def bounces(car: Car) -> list[int]:
     """The frames in which a collision was found."""
-    return [number for number, frame in enumerate(car.frames) if frame.mark_m is not None]
+    return [number for number, mark_m in enumerate(car.marks_m) if mark_m is not None]
 
 def hops(car: Car) -> list[int]:
     """How many frames there are from bounce to bounce."""

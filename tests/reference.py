@@ -16,7 +16,7 @@ Rational = Any  # a Fraction: the program takes it for a float, but mypy does no
 PRECISE = Context(prec=60)
 TOO_SHORT_S = Decimal("1e-30")
 NEVER_S = Decimal("Infinity")
-GRAZE_M = Decimal("5e-11")  # a turn less than this beyond a wall is a miss, as in the program
+GRAZE = Decimal("2.5e-11")  # of the track: a turn less than this beyond a wall is a miss
 
 def rationals(least: float, largest: float) -> st.SearchStrategy[Rational]:
     """Thousandths from least to largest."""
@@ -29,11 +29,13 @@ def states(track: Track, times_s: list[Decimal]) -> list[tuple[Decimal, Decimal]
     with localcontext(PRECISE):
         x_m, v_mps, a_mps2 = Decimal(track.x_m), Decimal(track.v_mps), Decimal(track.a_mps2)
         walls_m = {-1: Decimal(track.left_edge_m), 1: Decimal(track.right_edge_m)}
+        graze_m = GRAZE * (walls_m[1] - walls_m[-1])
         now_s = Decimal(0)
         for moment_s in times_s:
             while True:
-                flight_s, side = min((time_to(walls_m[side], side, x_m, v_mps, a_mps2), side)
-                                     for side in walls_m)
+                flight_s, side = min(
+                    (time_to(side * (at_m - x_m), side * v_mps, side * a_mps2, graze_m), side)
+                    for side, at_m in walls_m.items())
                 if now_s + flight_s > moment_s:
                     break
                 now_s += flight_s
@@ -48,12 +50,11 @@ def states(track: Track, times_s: list[Decimal]) -> list[tuple[Decimal, Decimal]
             found.append((x_m, v_mps))
     return found
 
-def time_to(wall_m: Decimal, side: int, x_m: Decimal, v_mps: Decimal, a_mps2: Decimal) -> Decimal:
-    """How long the car flies until it goes outwards through the wall."""
-    d, u, g = side * (wall_m - x_m), side * v_mps, side * a_mps2
+def time_to(d: Decimal, u: Decimal, g: Decimal, graze_m: Decimal) -> Decimal:
+    """How long the car flies until it goes outwards through a wall: d ahead, at the speed u."""
     if g == 0:
         return d / u if u > 0 else NEVER_S
     discriminant = u * u + 2 * g * d
-    if g < 0 and (u <= 0 or discriminant < -2 * g * GRAZE_M):
+    if g < 0 and (u <= 0 or discriminant < -2 * g * graze_m):
         return NEVER_S  # it moves away, or turns before it is there
     return (discriminant.sqrt() - u) / g

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import pytest
 
-from airtrack import Scene, Track, cars_of, main, render_track
+from airtrack import Scene, cars_of, main, render_track
 from films import details, shown
 
 
@@ -22,8 +22,8 @@ from films import details, shown
     (-0.2, -40, True, "<     o +  . a   0    |       ")])
 def test_each_mark_stands_in_its_column_and_an_arrow_where_the_car_is_out_of_the_picture(
         left_m: float, car_m: float, are_shown: bool, line: str) -> None:
-    scene = Scene(Track(x_m=0.94, left_edge_m=left_m, right_edge_m=2.0), m_to_px=10,
-                  width_px=len(line), show_start_mark=are_shown, show_collision_mark=are_shown)
+    scene = Scene(x_m=0.94, left_edge_m=left_m, right_edge_m=2.0, m_to_px=10, width_px=len(line),
+                  show_start_mark=are_shown, show_collision_mark=are_shown)
     places_m = {"a": 1.06, "b": -9.0, "c": 9.0, "o": 0.4, "+": 0.6, "*": car_m}
     assert render_track(scene, places_m, 1.5) == line
 
@@ -31,10 +31,10 @@ def test_where_marks_meet_the_one_that_is_first_in_this_order_is_seen() -> None:
     order = "*+oedcba|.0"
     for number, first in enumerate(order):
         place_m = dict.fromkeys(order, 1.5) | dict.fromkeys(order[number:], 1.0)
-        track = Track(x_m=place_m["."], left_edge_m=place_m["|"])
-        scene = Scene(track, m_to_px=10, show_start_mark=True, show_exact_mark=True,
+        scene = Scene(x_m=place_m["."], left_edge_m=place_m["|"], m_to_px=10, show_start_mark=True,
                       show_methods=True)
-        places_m = {mark: place_m[mark] for mark in cars_of(scene, replace(track, CR=0.5))}
+        cars = cars_of(scene, replace(scene, motion="exact"))
+        places_m = {mark: place_m[mark] for mark in cars}
         assert render_track(scene, places_m, 1.0)[10] == first
 
 def test_the_details_tell_the_place_of_the_car_and_how_far_to_the_right_of_the_o_it_is() -> None:
@@ -69,6 +69,7 @@ class TextOfATerminal(io.StringIO):
 def on_a_terminal(words: str, columns: int, monkeypatch: pytest.MonkeyPatch) -> str:
     """What a command line with --fast prints on a terminal of so many columns."""
     monkeypatch.setenv("COLUMNS", str(columns))
+    monkeypatch.setenv("NO_COLOR", "1")
     with contextlib.redirect_stdout(TextOfATerminal()) as out:
         assert main([*words.split(), "--fast"]) == 0
     return out.getvalue()
@@ -92,5 +93,5 @@ def test_the_film_and_its_table_are_as_long_in_a_narrow_terminal(
     rows = []
     for columns in (60, 250):
         _, film, table = on_a_terminal("1 m_to_px=500", columns, monkeypatch).split("\n\n", 2)
-        rows.append((film.count("\n"), re.findall(r"rest from [0-9.]+ s", table)))
+        rows.append((film.count("\n"), re.findall(r"from frame \d+", table)))
     assert rows[0] == rows[1]

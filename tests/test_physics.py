@@ -5,7 +5,6 @@ Most frames are worked out in rational numbers (Fraction), so without round-off.
 
 import math
 from fractions import Fraction
-from typing import Any
 
 import pytest
 from hypothesis import assume, example, given, settings
@@ -99,7 +98,7 @@ def test_in_any_scene_the_three_find_numbers_and_conserve_and_replay_stay_on_the
     track = Track(motion=motion, correction=correction, a_mps2=a_mps2, CR=CR, x_m=left_m,
                   left_edge_m=left_m, right_edge_m=left_m + length_m)
     off_by = 1e-12 * (fastest_mps + abs(a_mps2) * dt_s)**2
-    off_by += 1e-10 * abs(a_mps2)  # replay takes a hop under 5e-11 m for rest
+    off_by += 5e-11 * abs(a_mps2) * length_m  # replay takes a hop under half of this for rest
     x_m = left_m + part * length_m
     for _ in range(5):
         free_m = x_m + (v_mps + a_mps2 * dt_s / 2) * dt_s
@@ -114,22 +113,6 @@ def test_in_any_scene_the_three_find_numbers_and_conserve_and_replay_stay_on_the
             assert CR < 1 or track.energy(x_m, v_mps) >= before - off_by
             moved_m = x_m if mark_m is None else mark_m
             assert moved_m == pytest.approx(free_m, rel=1e-9, abs=1e-9)
-
-# What a track may be.
-
-@pytest.mark.parametrize(("name", "least", "largest"), [
-    ("x_m", -10_000, 10_000), ("v_mps", -10_000, 10_000), ("a_mps2", -10_000, 10_000),
-    ("CR", 0, 1), ("fps_target", 0.1, 1000), ("jitter", 0, 0.9), ("m_to_px", 0.0001, 1000),
-    ("width_px", 10, 1000)])
-def test_a_number_out_of_range_is_refused_with_name_value_and_range(
-        name: str, least: Any, largest: Any) -> None:
-    settings: list[Any] = [least, largest, least - 0.001, largest + 0.001, math.nan]
-    for allowed in settings[:2]:
-        scene_of({name: allowed})
-    for wrong in settings[2:]:
-        with pytest.raises(ValueError, match=name) as refused:
-            scene_of({name: wrong})
-        assert all(f"{word:.10g}" in str(refused.value) for word in (wrong, least, largest))
 
 def test_every_track_of_one_centimetre_can_be_made() -> None:
     for left_cm in range(-300, 300):

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from airtrack import Track, step, truth_of
+from airtrack import Scene, Track, step, truth_of
 from reference import states
 
 
@@ -84,8 +84,8 @@ def test_a_ball_dropped_from_the_ceiling_meets_the_floor_alone(
 @pytest.mark.parametrize(("x_m", "begins_m"), [(0.2, 0.25), (3, 2.2), (1.5, 1.5)])
 def test_the_truth_of_any_method_moves_as_60_digits_from_the_wall_if_the_start_is_beyond(
         x_m: float, begins_m: float) -> None:
-    track = Track(x_m=x_m, v_mps=3, a_mps2=-2, CR=0.5, motion="forward", correction="none")
-    truth = truth_of(track)
+    scene = Scene(x_m=x_m, v_mps=3, a_mps2=-2, CR=0.5, motion="forward", correction="none")
+    truth = truth_of(scene)
     moved_m, _, _ = step(truth, truth.x_m, truth.v_mps, 2.5)
-    (true_m, _), = states(replace(track, x_m=begins_m), [Decimal("2.5")])
+    (true_m, _), = states(replace(scene, x_m=begins_m), [Decimal("2.5")])
     assert moved_m == pytest.approx(float(true_m), abs=1e-9)

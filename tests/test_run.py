@@ -11,7 +11,7 @@ from clock import Clock, Play, plain
 from examples import EXAMPLES
 
 FREE = "99 d v_mps=10 right_edge_m=990"  # it meets no wall, so that steps_s() can tell its dt
-ENTER, CTRL_C, CTRL_S, CTRL_Q = "\r", "\x03", "\x13", "\x11"
+ENTER, CTRL_C, CTRL_S = "\r", "\x03", "\x13"
 NOW = {0: ENTER}  # begin at once: then frame 1 comes at 0.05 s, after a look at the keys
 
 def steps_s(out: str) -> list[float]:
@@ -56,11 +56,11 @@ def test_with_jitter_frames_are_irregular_and_a_fast_film_has_the_same(
     spread_s = [sorted(found_s)[place] for place in (0, 124, 249, 374, 498)]
     assert spread_s == pytest.approx([0.01, 0.055, 0.1, 0.145, 0.19], abs=0.003)
 
-@pytest.mark.parametrize("keys", ["pp", "PP", CTRL_S * 2, CTRL_S + CTRL_Q, CTRL_S + "p"])
+@pytest.mark.parametrize("keys", ["pp", "PP", CTRL_S * 2, CTRL_S + "p"])
 def test_p_pauses_and_then_the_film_goes_on_without_a_race_or_a_leap(
         keys: str, clock: Clock, play: Play) -> None:
     out = play(f"{FREE} fps_target=10 use_observed_dt=True",
-               NOW | {0.5: CTRL_Q, 1: keys[0], 31: keys[1], 32: "x"})
+               NOW | {1: keys[0], 31: keys[1], 32: "x"})
     *others_s, longest_s = sorted(clock.lengths_s())
     assert others_s == pytest.approx([0.1] * 18, abs=0.002)
     assert longest_s == pytest.approx(30, abs=0.2)
@@ -112,7 +112,7 @@ def test_a_pause_is_told_in_a_line_that_vanishes_and_a_pipe_is_spared_it(
     assert blanks == " " * len(told)
     assert blanks_again == " " * len(of_the_film)
     assert 10 < len(told) < 50  # from the last column on it would begin a new line
-    assert re.search(r"\b100\b.*\b10\.0", of_the_film)  # which frame and which moment it is
+    assert re.search(r"\b100\b", of_the_film)  # which frame it is
     assert "\r" not in play("10", NOW | {4: "x"})
 
 @pytest.mark.parametrize(("keys", "frames_s"), [
@@ -133,7 +133,7 @@ def test_before_a_film_enter_and_ctrl_c_begin_it_p_holds_the_text_s_shows_frame_
 def test_before_a_film_there_is_time_to_read_the_question_and_what_the_keys_do(
         has_terminal: bool, why_shut: str, reading_s: int, clock: Clock, play: Play,
         monkeypatch: pytest.MonkeyPatch) -> None:
-    window = SimpleNamespace(why_shut=why_shut, keys=list, close=list)
+    window = SimpleNamespace(why_shut=why_shut, keys=list)
     monkeypatch.setattr(examples, "HAS_TERMINAL", has_terminal)
     monkeypatch.setattr(examples, "Window", lambda: window)
     header = plain(play("8 --frames 1").partition("\n\n")[0])
