@@ -97,8 +97,8 @@ def arrival(d_m: float, u_mps: float, a_mps2: float) -> tuple[float, float]:
         t_s = (w_mps - u_mps) / a_mps2  # from w = u + a t. Here u <= 0, so w - u is a sum.
     return t_s, w_mps
 
-# If you write another motion, with the same arguments, add it to MOTIONS. The first line of its
-# docstring is shown by -h. Then you can watch it in films, and the map has it. But:
+# If you write another motion, with the same arguments and a docstring, add it to MOTIONS. Then you
+# can watch it in films, and the map has it. But:
 #     The true car o, the energies and conserve are right only for a constant acceleration.
 #     The chart compares only METHODS (section 6).
 #     The corrections rewind and replay need the motion exact.
@@ -191,7 +191,7 @@ def rewind(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> 
     With the exact motion this is right if the car bounces once in the frame, and the move ends
     beyond that wall. So in example 10, where CR is 1, the car comes back to its start each time.
     But it settles only one bounce a frame. A car that comes to rest has infinitely many bounces in
-    one frame, so with rewind it may make tiny hops instead (example 12). And if a move crosses a
+    one frame, so with rewind it may make small hops instead (example 12). And if a move crosses a
     wall and comes back within a frame, no collision is found: the bounce is missed (example 18).
     """
     # How long ago did the car pass the wall, and how fast? Run the film backwards: the car goes
@@ -216,22 +216,26 @@ EXACT_ONLY = ["rewind", "replay"]  # they need the exact motion
 # ==== 3. A frame ================================================================================
 # How does the car get from one frame to the next?
 
-def setting(default: Any, meaning: str, *allowed: Any) -> Any:
-    """A setting. allowed: the words that it may be or, of a number, the least and the largest."""
-    return field(default=default, metadata={"meaning": meaning, "allowed": allowed})
+def a_number(default: float, least: float, largest: float, meaning: str) -> Any:
+    """A setting that is a number from least to largest."""
+    return field(default=default, metadata={"meaning": meaning, "range": (least, largest)})
+
+def a_choice(default: Any, choices: list[Any], meaning: str) -> Any:
+    """A setting that is one of the choices."""
+    return field(default=default, metadata={"meaning": meaning, "choices": choices})
 
 @dataclass(frozen=True)  # frozen: nothing can change it. replace() makes a changed copy.
 class Track:
     """The track and its car: all that the physics needs to know."""
 
-    x_m: float = setting(1.1, "start position in m", -10_000, 10_000)
-    v_mps: float = setting(0.0, "start velocity in m/s: below 0 to the left", -10_000, 10_000)
-    a_mps2: float = setting(0.0, "acceleration in m/s^2: below 0 to the left", -10_000, 10_000)
-    left_edge_m: float = setting(0.25, "position of the left wall in m", -10_000, 10_000)
-    right_edge_m: float = setting(2.2, "position of the right wall in m", -10_000, 10_000)
-    CR: float = setting(0.8, "speed after a bounce / speed before it", 0, 1)
-    motion: str = setting("backward", "how the car is moved", *MOTIONS)
-    correction: str = setting("rebound", "how a collision is settled", *ALL_CORRECTIONS)
+    x_m: float = a_number(1.1, -10_000, 10_000, "start position in m")
+    v_mps: float = a_number(0.0, -10_000, 10_000, "start velocity in m/s: below 0 to the left")
+    a_mps2: float = a_number(0.0, -10_000, 10_000, "acceleration in m/s^2: below 0 to the left")
+    left_edge_m: float = a_number(0.25, -10_000, 10_000, "position of the left wall in m")
+    right_edge_m: float = a_number(2.2, -10_000, 10_000, "position of the right wall in m")
+    CR: float = a_number(0.8, 0, 1, "speed after a bounce / speed before it")
+    motion: str = a_choice("backward", [*MOTIONS], "how the car is moved")
+    correction: str = a_choice("rebound", ALL_CORRECTIONS, "how a collision is settled")
 
     def length_m(self) -> float:
         """The distance between the walls."""
@@ -267,10 +271,11 @@ def step(track: Track, x_m: float, v_mps: float, dt_s: float) -> Moved:
     free_m, free_mps = move(x_m, v_mps, track.a_mps2, dt_s)
     if track.has_on_it(free_m):
         return free_m, free_mps, None
-    # The move ended beyond a wall. Count from this wall, and into it: to the right at the right
-    # wall (sign 1), and to the left at the left wall (sign -1).
-    wall_m = track.nearest_m(free_m)
-    sign = 1 if free_m > wall_m else -1
+    # The move ended beyond a wall. Count from this wall, and into it.
+    if free_m > track.right_edge_m:
+        wall_m, sign = track.right_edge_m, 1  # into it is to the right
+    else:
+        wall_m, sign = track.left_edge_m, -1  # into it is to the left
     depth_m = sign * (free_m - wall_m)
     inward_mps = sign * free_mps
     inward_mps2 = sign * track.a_mps2
@@ -290,17 +295,17 @@ def step(track: Track, x_m: float, v_mps: float, dt_s: float) -> Moved:
 class Scene(Track):
     """A track, and how it is filmed. It is a Track with more settings, so step() takes it, too."""
 
-    fps_target: float = setting(30.0, "frames a second, 1/dt", 0.1, 1000)
-    use_observed_dt: bool = setting(False, "dt is how long the frame lasted", False, True)
-    jitter: float = setting(0.0, "frames are up to this part longer or shorter", 0, 0.9)
-    auto_off: bool = setting(True, "stop when the car is at rest", False, True)
-    m_to_px: float = setting(55.0, "zoom in columns for each m", 0.0001, 1000)
-    width_px: int = setting(135, "width of the picture in columns", 10, 1000)
-    show_start_mark: bool = setting(False, "draw a . at the start", False, True)
-    show_collision_mark: bool = setting(True, "draw a 0 where a collision was found", False, True)
-    show_exact_mark: bool = setting(False, "draw an o for the true car", False, True)
-    show_methods: bool = setting(False, "draw a to e for five methods", False, True)
-    show_details: bool = setting(False, "write x, v and FPS, as d does", False, True)
+    fps_target: float = a_number(30.0, 0.1, 1000, "frames a second, 1/dt")
+    use_observed_dt: bool = a_choice(False, [False, True], "dt is how long the frame lasted")
+    jitter: float = a_number(0.0, 0, 0.9, "frames are up to this part longer or shorter")
+    auto_off: bool = a_choice(True, [False, True], "stop when the car is at rest")
+    m_to_px: float = a_number(55.0, 0.0001, 1000, "zoom in columns for each m")
+    width_px: int = a_number(135, 10, 1000, "width of the picture in columns")
+    show_start_mark: bool = a_choice(False, [False, True], "draw a . at the start")
+    show_collision_mark: bool = a_choice(True, [False, True], "draw the 0 of a collision")
+    show_exact_mark: bool = a_choice(False, [False, True], "draw an o for the true car")
+    show_methods: bool = a_choice(False, [False, True], "draw a to e for five methods")
+    show_details: bool = a_choice(False, [False, True], "write x, v and FPS, as d does")
 
     def column_m(self) -> float:
         """How wide a column of the film is."""
@@ -344,8 +349,7 @@ def details_text(x_m: float, v_mps: float, fps: float, true_m: float | None) -> 
     return f"{text}, err = {x_m - true_m:9.2e}"
 
 # A terminal changes its colour where it reads "\033[" and a number and "m". 0 ends the colour.
-GREEN_O, RED_0 = "\033[32mo\033[0m", "\033[31m0\033[0m"
-COLOURS = str.maketrans({"o": GREEN_O, "0": RED_0})
+COLOURS = str.maketrans({"o": "\033[32mo\033[0m", "0": "\033[31m0\033[0m"})  # green and red
 
 def colours() -> dict[int, str]:
     """The colours of the marks. There are none if the output is not a terminal with colours."""
@@ -353,11 +357,6 @@ def colours() -> dict[int, str]:
     if is_dumb or os.environ.get("NO_COLOR") or not sys.stdout.isatty():
         return {}
     return COLOURS
-
-def say(text: str) -> None:
-    """Print a paragraph, as wide as the terminal but no wider than is good to read."""
-    width = min(100, shutil.get_terminal_size().columns)
-    print(textwrap.fill(text, width), flush=True)
 
 # ==== 5. The main loop ==========================================================================
 # When is a film over, how does it keep its speed, and what happens in each frame? The main loop,
@@ -405,8 +404,7 @@ class Car:
     def rest_began(self) -> int | None:
         """The number of the frame since which the car is at rest, or None if it is not.
 
-        It must be low for ten frames, for 0.3 s, and for longer than a hop so low lasts: the slow
-        top of a hop is no rest.
+        It must be low for ten frames, for 0.3 s, and for as long as a hop so low would last.
         """
         needed_s = REST_S
         g_mps2 = abs(self.scene.a_mps2)
@@ -592,9 +590,9 @@ def replay(track: Track, x_m: float, v_mps: float, dt_s: float) -> Moved:
 #
 # Methods a to d look only at the end of a frame, so they may miss a bounce (example 18). In long
 # frames a, b and d may even throw the car out at the other end (example 14). Methods c and e never
-# do. Why not always take e? Before it moves the car, it works out which wall the car meets next. In
-# a game with many things that move, nobody knows that. The others settle only a wall that a move
-# has met. So take c for a game.
+# do. But e must know, before it moves the car, which wall the car will meet. In a game with many
+# things that move, nobody knows that. So take c for a game: there the ball does not get out, comes
+# to rest, and bounces to the right height, if a little late.
 METHODS = {"a": ("backward", "rebound"), "b": ("exact", "rebound"), "c": ("exact", "conserve"),
            "d": ("exact", "rewind"), "e": ("exact", "replay")}
 
@@ -631,6 +629,11 @@ def late_energy(car: Car) -> float:
 SPAN_S = 20  # of simulated time: in example 12 a true car bounces for 12 s, then it lies still
 RUNS = 10  # of each method: with fewer, the largest error would be less reliable
 CHART_FPS = [1, 2, 5, 10, 30, 60, 120, 240, 480, 960]
+
+def say(text: str) -> None:
+    """Print a paragraph, as wide as the terminal but no wider than is good to read."""
+    width = min(100, shutil.get_terminal_size().columns)
+    print(textwrap.fill(text, width), flush=True)
 
 def frames_of(scene: Scene) -> int:
     """How many frames SPAN_S has."""
@@ -710,8 +713,10 @@ def placed(points: list[Point]) -> dict[tuple[int, int], str]:
     letters: dict[tuple[int, int], str] = {}
     for point in points:
         place = round(ROWS_A_DECADE * math.log10(point.cost_us)), error_column(point.error_m)
-        there = letters.get(place, point.letter)  # what stands there already, if anything
-        letters[place] = point.letter if there == point.letter else "+"
+        if letters.get(place, point.letter) == point.letter:  # nothing else stands there
+            letters[place] = point.letter
+        else:
+            letters[place] = "+"
     return letters
 
 def print_picture(points: list[Point], column_m: float) -> None:
@@ -737,7 +742,7 @@ def print_answers(points: list[Point], column_m: float) -> None:
         for point in reversed(own):  # from the highest rate down, as long as it is good enough
             if point.error_m > column_m:
                 break
-            cost_us, text = point.cost_us, f"from {point.fps:4} FPS on: {point.cost_us:6.1f} us"
+            cost_us, text = point.cost_us, f"from {point.fps:4g} FPS on: {point.cost_us:6.1f} us"
         answers.append((cost_us, f"{letter}: {' + '.join(method):20} {text}"))
     for _, text in sorted(answers):  # by the cost, which stands first
         print(text)
@@ -973,25 +978,27 @@ OTHER_NAMES = {
 
 def allowed_text(name: str) -> str:
     """What a setting may be, in words."""
-    default, allowed = SETTINGS[name].default, SETTINGS[name].metadata["allowed"]
-    if isinstance(default, str | bool):
-        *others, last = [str(each) for each in allowed]
+    about = SETTINGS[name].metadata
+    if "choices" in about:
+        *others, last = [str(each) for each in about["choices"]]
         return f"{', '.join(others)} or {last}"
-    kind = "a whole number" if isinstance(default, int) else "a number"
-    return f"{kind} from {allowed[0]} to {allowed[1]}"
+    least, largest = about["range"]
+    kind = "a whole number" if isinstance(SETTINGS[name].default, int) else "a number"
+    return f"{kind} from {least} to {largest}"
 
 def value_of(name: str, text: str) -> Any:
     """The value of a setting, from what was typed after NAME=. Raises Refused."""
-    default, allowed = SETTINGS[name].default, SETTINGS[name].metadata["allowed"]
-    if isinstance(default, str | bool):
-        for each in allowed:
+    about = SETTINGS[name].metadata
+    if "choices" in about:
+        for each in about["choices"]:
             if text.lower() == str(each).lower():
                 return each
     else:
-        digits = text.replace("\N{MINUS SIGN}", "-")  # it stands in what is copied from a page
+        least, largest = about["range"]
+        digits = text.replace("\N{MINUS SIGN}", "-")  # pages are printed with it
         with suppress(ValueError):
-            value = int(digits) if isinstance(default, int) else float(digits)
-            if allowed[0] <= value <= allowed[1]:
+            value = int(digits) if isinstance(SETTINGS[name].default, int) else float(digits)
+            if least <= value <= largest:
                 return value
     raise Refused(f"{name} must be {allowed_text(name)}, not {text or 'nothing'}")
 
@@ -1022,7 +1029,7 @@ def read_words(words: list[str]) -> tuple[str, int, dict[str, Any]]:
             typed["show_details"] = True
         elif word in COMMANDS:
             shows.append(word)
-        elif word.isdecimal():
+        elif word.isdecimal() and len(word) < 10:
             numbers.append(int(word))
         else:
             raise Refused(f"unknown word {word}: {hint(word)}")
@@ -1091,7 +1098,7 @@ def refuse_film_words(command: str, options: argparse.Namespace) -> None:
             for_films.append(word)
     if options.fast:
         for_films.append("--fast")
-    if options.frames != MAX_FRAMES:
+    if options.frames is not None:
         for_films.append("--frames")
     if for_films:
         raise Refused(f"{command} takes no {for_films[0]}. It chooses methods and frame rates "
@@ -1101,7 +1108,8 @@ def carry_out(options: argparse.Namespace) -> None:
     """Show what is asked for. Raises Refused before it shows anything."""
     show, number, typed = read_words(options.words)
     if show == "film":
-        show_film(number, typed, options.fast, options.frames)
+        max_frames = MAX_FRAMES if options.frames is None else options.frames
+        show_film(number, typed, options.fast, max_frames)
     else:
         refuse_film_words(show, options)
         compare(show, number, typed)
@@ -1114,7 +1122,7 @@ def frame_count(text: str) -> int:
 
 def epilog() -> str:
     """What -h shows at its end: the examples, the methods and the settings."""
-    lines = ["examples (any larger number is for a scene of your own):"]
+    lines = ["examples (a larger number, of up to nine digits, is for your own scene):"]
     lines += [f"  {number:2}  {example.title}" for number, example in EXAMPLES.items()]
     lines += ["", "motions and corrections:"]
     for name, method in [*MOTIONS.items(), *CORRECTIONS.items(), ("replay", replay)]:
@@ -1135,8 +1143,8 @@ def main(argv: list[str] | None = None) -> int:
     parser.add_argument("words", nargs="*", metavar="WORD", help="see above")
     parser.add_argument("--fast", action="store_true",
                         help="no waiting, no keys, no text after the table")
-    parser.add_argument("--frames", metavar="N", type=frame_count, default=MAX_FRAMES,
-                        help="stop after N frames; without it, after %(default)s")
+    parser.add_argument("--frames", metavar="N", type=frame_count,
+                        help=f"stop after N frames; without it, after {MAX_FRAMES}")
     options, unknown_options = parser.parse_known_intermixed_args(argv)
     options.words = [*unknown_options, *options.words]  # so that hint() sees --CR, too
     try:
@@ -1146,7 +1154,7 @@ def main(argv: list[str] | None = None) -> int:
         parser.error(str(fault))  # this prints the text and ends the program with status 2
     except KeyboardInterrupt:
         return 130  # the status of a program that Ctrl-C has ended
-    except OSError as fault:  # a full disk, or a pipe that nobody reads any more
+    except OSError as fault:  # a full disk, a pipe that nobody reads, a terminal that is gone
         # Python prints what is left when it ends. From here on this goes nowhere.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         if not isinstance(fault, BrokenPipeError):  # | head has read enough: this is no fault

@@ -52,12 +52,12 @@ def stubbed(patch: pytest.MonkeyPatch) -> list[Any]:
     ("12 x_m=0.2", "x_m 0.2 rewind"), ("3 d 4", "3 4 one"), ("--frames x", "--frames x whole"),
     ("chart stability", "chart stability one"), ("--frames 0", "--frames 0 1"),
     ("chart d", "chart d x_m CR"), ("chart --fast", "chart --fast"),
-    ("stability 3 --frames 9", "stability --frames"),
+    ("chart --frames 50000", "chart --frames"), ("stability 3 --frames 9", "stability --frames"),
     ("stability 5 motion=exact", "stability motion x_m CR m_to_px"),
     # the nearest right name, if there is one
     ("dt=0.1", "dt=0.1 fps_target=VALUE"), ("widht_px=9", "width_px=VALUE"), ("-d", "-d d"),
     ("Stabilty", "stability"), ("conserv", "correction=conserve"), ("Exact", "motion=exact"),
-    ("-5", "-5 -h"), ("qqqq", "qqqq -h"), ("friction=0.1", "friction -h")])
+    ("-5", "-5 -h"), ("9" * 5000, "999 -h"), ("qqqq", "qqqq -h"), ("friction=0.1", "friction -h")])
 def test_wrong_input_ends_with_2_and_one_sentence_that_helps(
         words: str, parts: str, monkeypatch: pytest.MonkeyPatch) -> None:
     stubbed(monkeypatch)  # so that no film is started if this is taken
@@ -104,7 +104,7 @@ def test_h_names_every_setting_example_motion_and_correction_in_80_columns() -> 
 
 @pytest.mark.parametrize(("words", "title"), [
     ("", "1, A first look"), ("10", "10, The exact solution"), ("23", "23, your own scene"),
-    ("9" * 50, "9, your own scene")])
+    ("999999999", "999999999, your own scene")])
 def test_without_a_number_it_is_example_1_and_any_larger_number_is_a_scene(
         words: str, title: str) -> None:
     assert title in shown(f"{words} --frames=1").intro

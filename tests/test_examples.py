@@ -171,7 +171,7 @@ def test_5_shows_only_some_of_its_collisions() -> None:
     assert collisions - hidden == sum("0" in line for line in lines)
 
 def test_8_is_so_far_beyond_the_wall_when_its_bounces_are_found() -> None:
-    figures_cm = told(8, r"first bounce the car was (\d+) cm beyond.* second it was (\d+) cm beyond")
+    figures_cm = told(8, r"first bounce the car was (\d+) cm .* second it was (\d+) cm beyond")
     found_m = [mark_m for mark_m in filmed(8, 60).marks_m if mark_m is not None]
     assert [25 - 100 * mark_m for mark_m in found_m] == pytest.approx(figures_cm)
 

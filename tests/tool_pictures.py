@@ -1,7 +1,6 @@
-"""A tool, no test: it makes what the pages show, and a chart of any scene. Needs matplotlib.
+"""A tool, no test: it makes the pictures and the worksheet's pages in .github/. Needs matplotlib.
 
-    python tests/tool_pictures.py                                        all that is in .github/
-    python tests/tool_pictures.py chart [EXAMPLE] [NAME=VALUE ...] FILE  a .png, .svg or .pdf
+    python tests/tool_pictures.py
 
 The moving pictures are terminals in which a film scrolls. The worksheet's source is
 .github/worksheet.txt. Of it the tool makes a PDF of two pages.
@@ -9,7 +8,7 @@ The moving pictures are terminals in which a film scrolls. The worksheet's sourc
 
 import subprocess
 import sys
-import textwrap
+from dataclasses import replace
 from pathlib import Path
 
 from matplotlib.backends.backend_pdf import PdfPages
@@ -20,17 +19,8 @@ from PIL import Image, ImageDraw, ImageFont
 HERE = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(HERE))
 
-from airtrack import (  # noqa: E402
-    CHART_FPS,
-    LEGEND,
-    METHODS,
-    Series,
-    compared_scene,
-    make_parser,
-    measured,
-    sorted_words,
-    track_text,
-)
+from airtrack import CHART_FPS, METHODS, Point, measured, scene_of  # noqa: E402
+from examples import EXAMPLES  # noqa: E402
 
 PAGES = HERE / ".github"
 FILMS = {  # as wide as a page has room for: command, frames, and how many rows the terminal has
@@ -39,7 +29,7 @@ FILMS = {  # as wide as a page has room for: command, frames, and how many rows 
 }
 LINE_PX, LETTER_PX, EDGE_PX = 20, 10, 8
 PAPER, GREY = (24, 24, 27), (190, 190, 196)
-INK = {"0": (248, 113, 113), "o": (74, 222, 128), "*": (250, 204, 21)}
+INK = {"0": (248, 113, 113), "o": (74, 222, 128)}
 
 def screen(lines: list[str], columns: int, picture_px: int, rows: int) -> Image.Image:
     """The terminal when the last of the lines has just been printed. The marks are coloured."""
@@ -68,37 +58,37 @@ def moving_picture(file: Path, command: str, count: int, rows: int) -> None:
     frames[0].save(file, save_all=True, append_images=frames[1:], loop=0,
                    duration=[100] * (len(frames) - 1) + [2000], optimize=False)
 
-def chart(words: list[str], file: Path) -> None:
+def chart(number: int, file: Path) -> None:
     """Measure as the program's chart does, and draw the points on two logarithmic scales."""
-    options = make_parser().parse_args(["chart", *words])
-    sorted_by_kind = sorted_words(options.words)
-    scene = compared_scene(sorted_by_kind, options)
+    scene = scene_of(EXAMPLES[number].settings)
     figure = Figure(figsize=(8, 6), dpi=150, layout="constrained")
-    heading = f"Example {sorted_by_kind.number}: {track_text(scene.track)}"
-    figure.suptitle(f"Speed against accuracy\n{textwrap.fill(heading, 110)}", fontsize=9)
+    figure.suptitle(f"Speed against accuracy: example {number}", fontsize=9)
     axes = figure.add_subplot(
         xscale="log", yscale="log", xlabel="largest error in ten runs (m): better to the left",
         ylabel="time for a simulated second (\N{MICRO SIGN}s): better upwards")
     axes.invert_yaxis()
     axes.margins(x=0.08)  # room for the labels
-    series: Series = {letter: [] for letter in METHODS}
+    series: dict[str, list[Point]] = {letter: [] for letter in METHODS}
     for fps in CHART_FPS:
-        for letter, point in measured(scene.track, fps).items():
-            series[letter].append(point)
+        for point in measured(replace(scene, fps_target=fps)):
+            series[point.letter].append(point)
     # An error of 0 has no place on a logarithmic scale. So e is drawn at the left edge.
     left_m = max(1e-17, min([point.error_m for point in series["d"]]) / 30)
     for letter, marker in zip(METHODS, "oxD+v", strict=True):
         points = series[letter]
         errors_m = [max(point.error_m, left_m) for point in points]
         costs_us = [point.cost_us for point in points]
-        axes.plot(errors_m, costs_us, f"{marker}-", label=LEGEND[letter])
+        name = " + ".join(METHODS[letter])
+        axes.plot(errors_m, costs_us, f"{marker}-", label=f"{letter}: {name}")
         on_the_left = letter in "ac"
         for point, error_m in zip(points, errors_m, strict=True):  # the rates
             axes.annotate(f"{point.fps}  " if on_the_left else f"  {point.fps}",
                           (error_m, point.cost_us), fontsize=6,
                           horizontalalignment="right" if on_the_left else "left")
-        print(letter, *[f"{point.fps}: {point.cost_us:.3g}" for point in points])
-    axes.text(left_m, 1.0, "e: no error,\nby definition", fontsize=8)
+        print(letter, *[f"{point.fps}: {point.cost_us:.3g} us, {1000 * point.error_m:.2g} mm;"
+                        for point in points])
+    above_us = 0.8 * series["e"][0].cost_us
+    axes.text(left_m, above_us, "e: no error,\nby definition", fontsize=8)
     axes.axvline(scene.column_m(), color="black", linestyle="--", label="a column of the film")
     axes.legend(loc="lower center", bbox_to_anchor=(0.5, -0.28), ncols=3, fontsize=8)
     figure.savefig(file)
@@ -115,14 +105,11 @@ def worksheet(file: Path) -> None:
                         verticalalignment="top")
             pages.savefig(figure)
 
-def main(words: list[str]) -> None:
-    if words:
-        chart(words[1:-1], Path(words[-1]))
-        return
+def main() -> None:
     for name, (command, count, rows) in FILMS.items():
         moving_picture(PAGES / name, command, count, rows)
-    chart([], PAGES / "chart.png")
+    chart(12, PAGES / "chart.png")
     worksheet(PAGES / "worksheet.pdf")
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    main()
