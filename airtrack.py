@@ -7,8 +7,8 @@ Type some of these WORDs, in any order:
     EXAMPLE      the number of an example. Without it, a film shows example 1,
                  and chart and stability take example 12.
     d            details at the end of each line: position x, velocity v, frame
-                 rate FPS and, if the true car o is drawn, err: how far the car is
-                 to the right of the o
+                 rate FPS and, if the true car o is drawn, err: how far to the
+                 right of the o the car is
     NAME=VALUE   a setting that replaces the example's own
     chart        no film, but speed against accuracy: how much computing time
                  five methods need, and how wrong they are
@@ -18,10 +18,10 @@ For example: python airtrack.py 10 d CR=0.9
 
 In a film, * is the car and | is a wall. < or > is the car, too, when it is out
 of the picture. A 0 is where the car would be now without the wall that it met.
-Some films also draw the start (.), the true car (o), or the cars of five methods
-(a to e). If you change the motion or the correction of an example, + is the car
-without this change. A table after the film says how far each car was from the
-true car. The wall to which a car is accelerated is called its floor.
+Some films also draw the start (.), the true car (o), or the cars of five
+methods (a to e). If you change the motion or the correction of an example, + is
+the car without this change. A table after the film says how far each car was
+from the true car. The wall to which a car is accelerated is called its floor.
 """
 # What is where?
 #     Sections 1 to 5    the demo: how a car moves and bounces, how a frame is drawn, and the main
@@ -83,9 +83,9 @@ def exact(x_m: float, v_mps: float, a_mps2: float, dt_s: float) -> State:
 def arrival(d_m: float, u_mps: float, a_mps2: float) -> tuple[float, float]:
     """When is a car at a place d_m ahead, and how fast is it there? Returns t_s and w_mps.
 
-    exact() tells the place at a time. This tells the time at a place. u_mps is its velocity
-    now. Here u_mps and a_mps2 are positive if they point to that place. The car must be able to get
-    there: with d = 1, u = 1 and a = -20 it turns before.
+    exact() tells the place at a time. This tells the time at a place. u_mps is the velocity of the
+    car now. Here u_mps and a_mps2 are positive if they point to that place. The car must be able to
+    get there: with d = 1, u = 1 and a = -20 it turns before.
     """
     # Energy gives the speed w there: w^2 = u^2 + 2 a d. Round-off may make w^2 negative.
     w_mps = math.sqrt(max(0.0, u_mps * u_mps + 2 * a_mps2 * d_m))
@@ -936,10 +936,10 @@ def print_table(cars: dict[str, Car]) -> None:
     """Print what the cars have done, and whether the * was right."""
     truth, column_m = cars["o"], cars["*"].scene.column_m()
     filmed_s = (len(truth.places_m) - 1) / truth.scene.fps_target
-    late_s = min(LATE_S, filmed_s)
+    mean_of = f"mean of last {min(LATE_S, filmed_s):.2g} s"
     print()
     print("                      furthest from   energy in J/kg (0: it lies still)")
-    print(f"                       the true car     start  mean of last {late_s:3.2g} s  at rest")
+    print(f"                       the true car     start {mean_of:>19}  at rest")
     for mark, car in reversed(cars.items()):
         scene, began = car.scene, car.rest_began()
         method = f"{scene.motion} + {scene.correction}"
