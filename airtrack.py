@@ -146,9 +146,9 @@ def none(depth_m: float, inward_mps: float, inward_mps2: float, CR: float) -> Co
     """Reverse the velocity, times CR, but leave the car beyond the wall, where it may be caught.
 
     The bounce has slowed the car. So after the next frame it may still be beyond the wall. Then its
-    velocity is reversed again, now into the wall, and so on: the car is caught. With backward or
-    exact the acceleration makes it sink. Such a car is said to stick (example 3). The other
-    corrections prevent this.
+    velocity is reversed again, now into the wall, and so on: the car is caught, and an acceleration
+    into the wall may make it sink. Such a car is said to stick (example 3). The other corrections
+    prevent this.
     """
     return depth_m, -CR * inward_mps
 
@@ -296,7 +296,7 @@ class Scene(Track):
     """A track, and how it is filmed. It is a Track with more settings, so step() takes it, too."""
 
     fps_target: float = a_number(30.0, 0.1, 1000, "frames a second, 1/dt")
-    use_observed_dt: bool = a_choice(False, [False, True], "dt is how long the frame lasted")
+    use_observed_dt: bool = a_choice(False, [False, True], "dt is the measured length of a frame")
     jitter: float = a_number(0.0, 0, 0.9, "frames are up to this part longer or shorter")
     auto_off: bool = a_choice(True, [False, True], "stop when the car is at rest")
     m_to_px: float = a_number(55.0, 0.0001, 1000, "zoom in columns for each m")
@@ -359,7 +359,7 @@ def colours() -> dict[int, str]:
     return COLOURS
 
 # ==== 5. The main loop ==========================================================================
-# When is a film over, how does it keep its speed, and what happens in each frame? The main loop,
+# When is a film over, how does it keep its pace, and what happens in each frame? The main loop,
 # run(), stands at the end of this section.
 
 REST_S = 0.3  # long enough to be seen
@@ -383,7 +383,7 @@ class Car:
         self.marks_m.append(mark_m)
 
     def low_m(self) -> float:
-        """Below this height above its floor nobody sees that a car moves: half a column or less."""
+        """Below this height above its floor a car counts as lying there: half a column or less."""
         # A 650th of the track is 3 mm in examples 1 to 12. With this, the films of examples 1, 5, 6
         # and 12 end in the same frame as in the lesson that this program follows.
         return min(self.scene.column_m() / 2, self.scene.length_m() / 650)
@@ -451,11 +451,11 @@ def ticks(scene: Scene, max_frames: int, keys: Keys | None) -> Iterator[tuple[fl
     # Pretend that a frame was shown one frame ago. So frame 1, a frame later, is due now.
     due_s = shown_s = time.perf_counter() - planned_length_s(scene, 1)
     for number in range(1, max_frames + 1):
-        fps = scene.fps_target
+        shown_fps = scene.fps_target
         length_s = planned_length_s(scene, number)
-        dt_s = length_s if scene.use_observed_dt else 1 / fps
+        dt_s = length_s if scene.use_observed_dt else 1 / scene.fps_target
         if keys is None:
-            yield dt_s, fps
+            yield dt_s, shown_fps
             continue
         due_s += length_s
         was_paused = keys.wait(due_s, number)
@@ -465,14 +465,14 @@ def ticks(scene: Scene, max_frames: int, keys: Keys | None) -> Iterator[tuple[fl
         lasted_s = now_s - shown_s
         shown_s = now_s
         # After a pause or a stall plan the next frames from now. Otherwise the film would race to
-        # catch up. And keep the planned dt. Otherwise the car would leap.
+        # catch up. And leave dt as it was planned. Otherwise the car would leap.
         if was_paused or now_s > due_s + STALL_S:
             due_s = now_s
         elif scene.use_observed_dt:
             dt_s = lasted_s
         if not was_paused:
-            fps = 1 / max(lasted_s, 1e-6)  # the clock may not have ticked in between
-        yield dt_s, fps
+            shown_fps = 1 / max(lasted_s, 1e-6)  # the clock may not have ticked in between
+        yield dt_s, shown_fps
 
 def run(cars: dict[str, Car], scene: Scene, max_frames: int, keys: Keys | None) -> None:
     """Show the film until a key, the car at rest or max_frames ends it, and say which of them.
@@ -501,9 +501,9 @@ def run(cars: dict[str, Car], scene: Scene, max_frames: int, keys: Keys | None) 
 # ==== 6. The truth ==============================================================================
 # What would the car really do? And which method should I take?
 #
-# The correction replay is right, to round-off, for a frame of any length: with motion=exact, one
-# step() of 20 s returns where the car truly is after 20 s. The film's o, the chart and the map rely
-# on this. So the tests compare it with a reference that has 60 digits.
+# The correction replay is right for a frame of any length: with motion=exact, one step() of 20 s
+# returns where the car truly is after 20 s. The film's o, the chart and the map rely on this. So
+# the tests compare it with a reference that has 60 digits.
 #
 # Think of a ball in a room. The wall to which the car is accelerated is the floor, and the other
 # wall is the ceiling. h is the height of the ball above the floor. The ball flies from bounce to
@@ -514,7 +514,7 @@ def run(cars: dict[str, Car], scene: Scene, max_frames: int, keys: Keys | None) 
 # them last 1 + CR + CR^2 + ... seconds, and this sum is 1/(1 - CR). The moment at which they end is
 # called the Zeno point. From then on the ball lies still. Nobody can follow infinitely many hops
 # one by one. So here a ball lies still if it would rise less than GRAZE times the height of the
-# room. In example 12 it does so after bounce 55. With CR = 0.98 it would be after bounce 602.
+# room. In example 12 it does so after bounce 55, and with CR=0.98 after bounce 602.
 
 GRAZE = 2.5e-11  # on the lesson's track 5e-11 m: far more than round-off, less than an atom's width
 
@@ -525,8 +525,8 @@ def next_bounce(h_m: float, rise_mps: float, g_mps2: float,
     The wall is told by its height: 0 is the floor, and room_m is the ceiling. h_m is the height of
     the ball, and rise_mps is its velocity, upwards.
     """
-    # To rise to the ceiling takes the energy g * (room - h). For a ball that only just gets there,
-    # round-off would decide. So it must be able to rise higher, by GRAZE times the room's height.
+    # To rise to the ceiling takes the energy g * (room - h). If a ball only just gets there,
+    # round-off would decide. So it meets the ceiling only if it could rise higher, by GRAZE * room.
     energy_to_meet_it = g_mps2 * (room_m - h_m + GRAZE * room_m)
     if rise_mps > 0 and rise_mps * rise_mps / 2 >= energy_to_meet_it:
         flight_s, speed_mps = arrival(room_m - h_m, rise_mps, -g_mps2)
@@ -535,14 +535,14 @@ def next_bounce(h_m: float, rise_mps: float, g_mps2: float,
     return 0.0, flight_s, speed_mps
 
 def replay(track: Track, x_m: float, v_mps: float, dt_s: float) -> Moved:
-    """Follow the exact motion from bounce to bounce: right however many a frame has.
+    """Follow the exact motion from bounce to bounce, as many as there are in the frame.
 
     It takes and returns what step() does.
     """
     # A car that has moved one way only, and is still on the track, has met no wall. The lines below
     # would find the same. This only saves time: most frames end here.
     free_m, free_mps = exact(x_m, v_mps, track.a_mps2, dt_s)
-    has_turned = v_mps * free_mps < 0  # its velocity has changed its sign
+    has_turned = v_mps * free_mps < 0  # so it may have crossed a wall, and come back
     if track.has_on_it(free_m) and not has_turned:
         return free_m, free_mps, None
     # Turn the track into a room. up is the direction away from the floor.
@@ -565,10 +565,10 @@ def replay(track: Track, x_m: float, v_mps: float, dt_s: float) -> Moved:
         elif track.CR == 1:
             # It needs the same time from floor to floor again and again. Leave out whole periods:
             # if 7 s are left, and the period is 2 s, only the last 1 s matters.
-            met_h_m, flight_s, _ = next_bounce(h_m, rise_mps, g_mps2, room_m)
-            period_s = flight_s
-            if met_h_m > 0:  # from the ceiling it needs the same time back to the floor
-                period_s = 2 * flight_s
+            next_h_m, next_flight_s, _ = next_bounce(h_m, rise_mps, g_mps2, room_m)
+            period_s = next_flight_s
+            if next_h_m > 0:  # from the ceiling it needs the same time back to the floor
+                period_s = 2 * next_flight_s
             remaining_s %= period_s
     h_m, rise_mps = exact(h_m, rise_mps, -g_mps2, remaining_s)
     # Turn the room into the track again. Round-off must not leave the car beyond a wall.
@@ -581,18 +581,19 @@ def replay(track: Track, x_m: float, v_mps: float, dt_s: float) -> Moved:
 #     a  backward + rebound  up and down  order 1                     seeing errors
 #     b  exact + rebound     too much     order 1                     cars without an acceleration
 #     c  exact + conserve    right        order 1: bounces come late  balls in a game
-#     d  exact + rewind      right        none; order 2 at rest       one bounce a frame
+#     d  exact + rewind      right        none, until it rests        one bounce a frame
 #     e  exact + replay      right        none                        the truth
 #
-# The table is for a car that bounces on its floor, at most once in a frame. (Without an
-# acceleration a, b, d and e have no error, and c has one of order 1.) At rest: at CR < 1 the last
-# frames before the Zeno point have several bounces. There d gets a little too much energy.
+# The table is for a car that bounces on its floor. The last frames before the Zeno point have
+# several bounces, and d settles only one in each. There it gets a little too much energy: an error
+# of order 2. Without an acceleration a, b, d and e have no error if no frame has more than one
+# bounce, and c has one of order 1.
 #
 # Methods a to d look only at the end of a frame, so they may miss a bounce (example 18). In long
 # frames a, b and d may even throw the car out at the other end (example 14). Methods c and e never
 # do. But e must know, before it moves the car, which wall the car will meet. In a game with many
-# things that move, nobody knows that. So take c for a game: there the ball does not get out, comes
-# to rest, and bounces to the right height, if a little late.
+# things that move, that is hard to know. So take c for a game: there the ball does not get out,
+# comes to rest, and bounces to the right height, if a little late.
 METHODS = {"a": ("backward", "rebound"), "b": ("exact", "rebound"), "c": ("exact", "conserve"),
            "d": ("exact", "rewind"), "e": ("exact", "replay")}
 
@@ -798,7 +799,7 @@ FROM_WORST_TO_BEST = list(VERDICTS)
 #
 # With exact + surface it comes back too fast. So at CR = 1 the hops get higher (G). At CR below 1,
 # if it is not too small, a slow car gets in each hop what a bounce takes, and hops for ever (H).
-# With backward + surface it comes back too slowly, and no hop gets higher (L). The page
+# With backward + surface it comes back too slowly, so at CR = 1 it loses energy (L). The page
 # .github/law.md has the law of this, and the other methods.
 
 def verdict(car: Car, truth: Car) -> str:
@@ -862,18 +863,26 @@ PYTHON = os.path.basename(sys.executable).removesuffix(".exe")  # what runs this
 SETTINGS = {each.name: each for each in fields(Scene)}
 OF_THE_TRACK = [each.name for each in fields(Track)]
 
+def as_typed(settings: dict[str, Any]) -> str:
+    """The settings as one may type them."""
+    words = []
+    for name, value in settings.items():
+        text = f"{value:.10g}" if isinstance(value, float) else str(value)
+        words.append(f"{name}={text}")
+    return " ".join(words)
+
 def settings_text(scene: Scene, always: list[str]) -> str:
-    """The settings named in always, and others that differ from their defaults, as one types them.
+    """The settings named in always, and others that differ from their defaults.
 
     Which marks are drawn is not told, because one sees it.
     """
-    texts = []
+    told = {}
     for name, each in SETTINGS.items():
         value = getattr(scene, name)
         is_told = name in always or value != each.default
         if is_told and not name.startswith("show_"):
-            texts.append(f"{name}={value:.10g}" if isinstance(value, float) else f"{name}={value}")
-    return " ".join(texts)
+            told[name] = value
+    return as_typed(told)
 
 def fitted(scene: Scene) -> Scene:
     """The scene, drawn smaller if its lines are wider than the terminal."""
@@ -914,6 +923,8 @@ def film(number: int, scene: Scene, cars: dict[str, Car], texts: Example, is_fas
             f"column is {drawn.column_m():.2g} m wide there.")
     if scene.show_methods:
         say(LEGEND)
+    if not scene.has_on_it(scene.x_m):
+        say("The car starts beyond a wall. The true car starts on this wall.")
     if "+" in cars:
         say("+ is the car with the example's own method. You have changed the method of the *.")
     say(texts.look_for)
@@ -938,8 +949,8 @@ def print_table(cars: dict[str, Car]) -> None:
     filmed_s = (len(truth.places_m) - 1) / truth.scene.fps_target
     mean_of = f"mean of last {min(LATE_S, filmed_s):.2g} s"
     print()
-    print("                      furthest from   energy in J/kg (0: it lies still)")
-    print(f"                       the true car     start {mean_of:>19}  at rest")
+    print("                      furthest from  energy in J/kg, 0 at the floor")
+    print(f"                       the true car    start {mean_of:>17}  at rest")
     for mark, car in reversed(cars.items()):
         scene, began = car.scene, car.rest_began()
         method = f"{scene.motion} + {scene.correction}"
@@ -947,12 +958,12 @@ def print_table(cars: dict[str, Car]) -> None:
         if scene == truth.scene:
             off = "the truth"
         first_energy = scene.energy(scene.x_m, scene.v_mps)
-        energies = f"{first_energy:9.3g} {late_energy(car):19.3g}"
-        rest = "not yet" if began is None else f"from frame {began}"
+        energies = f"{first_energy:8.3g} {late_energy(car):17.3g}"
+        rest = "not in this film" if began is None else f"from frame {began}"
         print(f"{mark} {method:19} {off:>12} {energies}  {rest}")
-    columns_off = furthest_m(cars["*"], truth) / column_m
-    answer = "Yes." if columns_off <= 1 else f"No: up to {columns_off:.3g} columns away."
-    say(f"Was the * always within a column ({column_m:.2g} m) of the true car? {answer}")
+    answer = "Yes." if furthest_m(cars["*"], truth) <= column_m else "No."
+    say(f"Was the * always within a column ({column_m:.2g} m in the full picture) of the true car? "
+        f"{answer}")
 
 # ==== 10. The command line ======================================================================
 # What may be typed, and what does the user want?
@@ -1068,8 +1079,7 @@ def compare(command: str, number: int, typed: dict[str, Any]) -> None:
     say(f"{command} {number}, {example.title}: {settings_text(scene, COMPARED)}")
     COMMANDS[command](scene)
     if command == "chart":
-        words = [f"{name}={value}" for name, value in typed.items()]
-        print("Next:", PYTHON, "airtrack.py stability", number, *words)
+        print(f"Next: {PYTHON} airtrack.py stability {number} {as_typed(typed)}".rstrip())
 
 def show_film(number: int, typed: dict[str, Any], is_fast: bool, max_frames: int) -> None:
     """Show the film of an example, perhaps a changed one, or of one's own scene. Raises Refused."""
@@ -1079,7 +1089,8 @@ def show_film(number: int, typed: dict[str, Any], is_fast: bool, max_frames: int
     unchanged = None
     if number in EXAMPLES and differ(scene, original, MOVING):
         # Nobody knows what is to be seen there. So the film shows the true car, and asks.
-        texts = CHANGED
+        changes = {name: value for name, value in typed.items() if name in MOVING}
+        texts = CHANGED._replace(title=f"changed, {as_typed(changes)}")
         scene = replace(scene, show_exact_mark=typed.get("show_exact_mark", True))
         if differ(scene, original, ["motion", "correction"]):
             unchanged = with_method(scene, original.motion, original.correction)

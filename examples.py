@@ -226,16 +226,17 @@ EXAMPLES = {
     20: Example("Hops that lose speed, counted", {
         "x_m": 0.66, "v_mps": 0.75, "a_mps2": -2.0, "CR": 0.8, "motion": "exact",
         "fps_target": 10.0, "show_exact_mark": True},
-        "Each bounce takes 20 % of the speed. Which comes to rest, the o or the *? Count the hops "
-        "of the * as in example 19. Watch for 10 s.",
+        "Each bounce takes 20 % of the speed. Which comes to rest, the o or the *? Count the lines "
+        "of each hop of the *, from bounce to bounce. Watch for 10 s.",
         "Only the o comes to rest: in truth it lies still from t = 7.05 s on, after infinitely "
         "many bounces. (The table calls it at rest from frame 66 on, because its last hops are too "
         "low to see.) The hops of the * take 14, 12, 10 lines and, from frame 48 on, 9 for ever. "
         "Each hop ends below the floor, because the bounce is found late. Then the rebound lifts "
         "the car, and does not slow it. So in each hop the car comes back faster than it left: in "
         "the end it leaves at 0.8 m/s and comes back at 1 m/s. A bounce takes 20 % of this, so it "
-        "leaves at 0.8 m/s again. A higher frame rate makes these speeds lower, but not 0. The "
-        "cure is correction=conserve: with it the * comes to rest, too."),
+        "leaves at 0.8 m/s again. A higher frame rate makes these hops lower, and in the end too "
+        "low to see, but does not end them. The cure is correction=conserve: with it the * comes "
+        "to rest, too."),
     21: Example("Five methods on one track", EXACT | {"show_methods": True},
         "The * is the car of example 10. Which letter leaves it first, which gets furthest away, "
         "and which two are never seen? Watch for 20 s.",
@@ -269,8 +270,9 @@ EXAMPLES = {
 # These texts stand for those of a changed example, and of a scene of one's own. Nobody knows what
 # is to be seen there, so the film's own table answers.
 CHANGED = Example("changed", {},
-    "The o is the true car. Where you see no o, it is under another mark or out of the picture. "
-    "What does your change do to the *? Is it always within a column of the o?", "")
+    "The o is the true car. A car that you do not see is under another mark, or out of the "
+    "picture. What does your change do to the *? The table after the film says how far it was "
+    "from the o, how much energy it had, and since when it is at rest.", "")
 OWN_SCENE = Example(f"your own scene (the examples are 0 to {max(EXAMPLES)})", {
     "show_exact_mark": True},
     "The * is your car, and the o is the true car. Where you see no o, it is under the * or out of "
@@ -455,7 +457,7 @@ class Keys:
                 return False
             time.sleep(min(left_s, LOOK_S))
             self.look()
-        self.hold(f"paused after frame {number - 1}: p resumes, s steps, x quits")
+        self.hold(f"paused after frame {number - 1}: p goes on, s steps, x ends it")
         self.steps = max(0, self.steps - 1)
         return True
 
@@ -486,14 +488,14 @@ class Keys:
         there = [] if self.window.why_shut else ["in the little window"]
         return (f"Keys {' and '.join(here + there)}: p pauses the film, s steps, x ends it."
                 f"{no_window} It begins in {self.reading_s:g} s, or now with Enter or Ctrl-C. "
-                "p holds the text.")
+                "p holds this text.")
 
     def leave_time(self) -> None:
         """Leave time to read what is said before the film. Enter and s cut it short."""
         ends_s = time.perf_counter() + self.reading_s
         while not self.has_begun and not self.why_quit:
             self.look()
-            self.hold("the text is held: p lets go, Enter begins the film, x quits")
+            self.hold("the text is held: p lets go, Enter begins the film, x ends it")
             self.has_begun |= time.perf_counter() >= ends_s
             time.sleep(LOOK_S)
         if self.has_begun_by_ctrl_c:

@@ -83,10 +83,6 @@ def test_in_a_narrow_terminal_lines_do_not_wrap_and_show_both_walls(
     assert max(len(line) for line in lines) <= columns
     assert len(wall_columns(lines)) == 2
 
-def test_the_smallest_zoom_is_drawn_in_a_narrow_terminal_too(
-        monkeypatch: pytest.MonkeyPatch) -> None:
-    on_a_terminal("9 m_to_px=0.0001 --frames=1", 60, monkeypatch)
-
 def test_the_film_and_its_table_are_as_long_in_a_narrow_terminal(
         monkeypatch: pytest.MonkeyPatch) -> None:
     # A column is 2 mm. In 60 columns it is drawn wider.
