@@ -1,8 +1,6 @@
 """The pages: their commands are taken, their blocks of code work as printed, their links lead
 somewhere, and their figures, which are read on the page, are those of the program."""
 
-import contextlib
-import io
 import random
 import re
 from math import floor, sqrt
@@ -327,19 +325,18 @@ def test_the_answers_of_the_worksheet_and_the_figures_of_the_lesson() -> None:
     places_m, true = car.places_m, true_m(car)
     energies = [car.scene.energy(x_m, v_mps)
                 for x_m, v_mps in zip(places_m, car.velocities_mps, strict=True)]
-    lines = bounces(car)[:2]
-    lifts_cm = [100 * (places_m[line] - (car.marks_m[line] or 0)) for line in lines]
+    lifts_cm = [100 * (places_m[line] - (car.marks_m[line] or 0)) for line in bounces(car)[:2]]
     short_cm = 100 * (places_m[26] - places_m[0])
     fine, coarse = filmed(8, 1000, fps_target=100.0), filmed(16, 100)
     third = {motion: filmed(13, 15, motion=motion) for motion in ("backward", "exact", "forward")}
     third_m = [each.places_m[15] for each in third.values()]
     third_J = [each.scene.energy(each.places_m[15], -0.52) for each in third.values()]
     for page, pattern, found in (
-            (LESSON, r"first bounce is in line (\d+), at .* The second is in line (\d+)", lines),
+            (LESSON, r"first bounce is in line (\d+), at .* second is in line (\d+)", [13, 39]),
             (LESSON, r"7 cm \+ 7 cm = (\d+) cm, and 19 cm \+ 19 cm = (\d+) cm", lifts_cm),
             (LESSON, r"true car is at ([\d.]+) m, then at ([\d.]+) m", [true[6], true[10]]),
             (LESSON, r"1.75 = ([\d.]+) J/kg.*\+ 1.3 = ([\d.]+) J", [energies[0], energies[10]]),
-            (LESSON, r"first turn, at ([\d.]+) m, is wrong", tops_m(places_m)[:1]),
+            (LESSON, r"first turn, in line 26: it is at ([\d.]+) m", [places_m[26]]),
             (LESSON, r"third turn is at ([\d.]+) m.* fourth at ([\d.]+) m", tops_m(places_m)[2:4]),
             (LESSON, r"In line 52 the `\*` is at ([\d.]+) m, and the true car is at ([\d.]+) m",
              [places_m[52], true[52]]),
@@ -353,31 +350,21 @@ def test_the_answers_of_the_worksheet_and_the_figures_of_the_lesson() -> None:
             (LESSON, r"`\*` ([\d.]+) m, `o` ([\d.]+) m, `\+` ([\d.]+) m", third_m),
             (LESSON, r"computes one E: ([\d.]+), ([\d.]+) and ([\d.]+) J/kg", third_J)):
         assert figures(page, pattern) == pytest.approx(found, abs=0.0051), pattern
-    assert [energies.index(least) for least in (min(energies), max(energies))] == [38, 39]
+    assert bounces(car)[:2] == [13, 39]
+    assert energies.index(min(energies)) == 38
+    assert energies.index(max(energies)) == 39
 
-def drawn(words: str, columns: int, monkeypatch: pytest.MonkeyPatch) -> list[str]:
-    """The lines of a film as a terminal of this width shows them, without colours."""
-    class Terminal(io.StringIO):
-        def isatty(self) -> bool:
-            return True
-
-    monkeypatch.setenv("COLUMNS", str(columns))
-    monkeypatch.setenv("NO_COLOR", "1")
-    with contextlib.redirect_stdout(Terminal()) as out:
-        main([*words.split(), "--fast"])
-    return out.getvalue().split("\n\n")[1].splitlines()[:-1]
-
-def test_the_columns_of_the_lesson_are_those_on_a_screen_of_100(
-        monkeypatch: pytest.MonkeyPatch) -> None:
-    lines = drawn("1", 100, monkeypatch)
+def test_the_columns_of_the_lesson_are_those_of_its_films() -> None:
+    picture, = re.findall(r"with `(width_px=\d+ m_to_px=[\d.]+)` at the end", LESSON)
+    lines = shown(f"1 {picture}").lines
     columns = [line.find("*") - line.index("|") for line in lines]
     turns = [max(columns[:70]), max(columns[70:120]), max(columns[125:160]), max(columns[165:185])]
     assert turns == figures(LESSON, r"starts and turns: (\d+), (\d+), (\d+) and (\d+)")
-    lines = drawn("16 --frames=52", 100, monkeypatch)
+    lines = shown(f"16 {picture} --frames=52").lines
     assert "o" not in lines[51]
-    apart = [lines[39].index("*") - lines[39].index("o")]
-    assert apart == figures(LESSON, r"In line 40 they are (\d+) columns apart")
-    lines = drawn("13 motion=backward --frames=15", 100, monkeypatch)
+    apart = figures(LESSON, r"In line 40 they are (\d+) columns apart")
+    assert [lines[39].index("*") - lines[39].index("o")] == apart
+    lines = shown(f"13 motion=backward {picture} --frames=15").lines
     assert "o" not in lines[0]
     apart = figures(LESSON, r"In line 15 this is 15 cm, so (\d+) columns")
     assert [lines[14].index("o") - lines[14].index("*")] == apart
