@@ -474,24 +474,24 @@ def ticks(scene: Scene, max_frames: int, keys: Keys | None) -> Iterator[tuple[fl
             shown_fps = 1 / max(lasted_s, 1e-6)  # the clock may not have ticked in between
         yield dt_s, shown_fps
 
-def run(cars: dict[str, Car], scene: Scene, max_frames: int, keys: Keys | None) -> None:
+def run(cars: dict[str, Car], drawn: Scene, max_frames: int, keys: Keys | None) -> None:
     """Show the film until a key, the car at rest or max_frames ends it, and say which of them.
 
-    cars has the cars by their marks, from back to front.
+    cars: by their marks, from back to front. drawn: their scene, smaller in a narrow terminal.
     """
     car = cars["*"]
     colour_of = colours()
     t_s = 0.0
     why = "that is the frame limit"
-    for dt_s, fps in ticks(scene, max_frames, keys):
+    for dt_s, fps in ticks(drawn, max_frames, keys):
         # Move the cars, and settle their collisions.
         for each in cars.values():
             each.move(dt_s)
         # Draw the frame.
-        print(frame_text(cars, scene, fps, colour_of))
+        print(frame_text(cars, drawn, fps, colour_of))
         # Is it over?
         t_s += dt_s
-        if scene.auto_off and car.rest_began() is not None:
+        if drawn.auto_off and car.rest_began() is not None:
             why = "the car is at rest"
             break
     if keys is not None and keys.why_quit:
@@ -584,16 +584,16 @@ def replay(track: Track, x_m: float, v_mps: float, dt_s: float) -> Moved:
 #     d  exact + rewind      right        none, until it rests        one bounce a frame
 #     e  exact + replay      right        none                        the truth
 #
-# The table is for a car that bounces on its floor. The last frames before the Zeno point have
-# several bounces, and d settles only one in each. There it gets a little too much energy: an error
-# of order 2. Without an acceleration a, b, d and e have no error if no frame has more than one
-# bounce, and c has one of order 1.
+# The table is for a CR above 0, and a car that bounces on its floor. The last frames before the
+# Zeno point have several bounces, and d settles only one in each. There it gets a little too much
+# energy: an error of order 2. Without an acceleration a, b, d and e have no error if no frame has
+# more than one bounce, and c has one of order 1.
 #
 # Methods a to d look only at the end of a frame, so they may miss a bounce (example 18). In long
 # frames a, b and d may even throw the car out at the other end (example 14). Methods c and e never
 # do. But e must know, before it moves the car, which wall the car will meet. In a game with many
-# things that move, that is hard to know. So take c for a game: there the ball does not get out,
-# comes to rest, and bounces to the right height, if a little late.
+# things that move, that is hard to know. So take c for a game: there the ball does not get out. It
+# bounces to the right height, a little late, and at a CR below 1 it comes to rest.
 METHODS = {"a": ("backward", "rebound"), "b": ("exact", "rebound"), "c": ("exact", "conserve"),
            "d": ("exact", "rewind"), "e": ("exact", "replay")}
 
@@ -714,10 +714,10 @@ def placed(points: list[Point]) -> dict[tuple[int, int], str]:
     letters: dict[tuple[int, int], str] = {}
     for point in points:
         place = round(ROWS_A_DECADE * math.log10(point.cost_us)), error_column(point.error_m)
-        if letters.get(place, point.letter) == point.letter:  # nothing else stands there
-            letters[place] = point.letter
-        else:
+        if place in letters and letters[place] != point.letter:
             letters[place] = "+"
+        else:
+            letters[place] = point.letter
     return letters
 
 def print_picture(points: list[Point], column_m: float) -> None:
@@ -770,7 +770,7 @@ def chart(scene: Scene) -> None:
     print()
     print_picture(points, scene.column_m())
     say("Error to the right, cost downwards: the best are in the upper left. + is where letters "
-        f"meet. Within a column ({scene.column_m():.2g} m), at this rate and each higher one:")
+        f"meet. Within a column ({scene.column_m():.2g} m), at this and each higher rate measured:")
     print_answers(points, scene.column_m())
 
 # ==== 8. The map: where methods fail ============================================================
@@ -799,8 +799,8 @@ FROM_WORST_TO_BEST = list(VERDICTS)
 #
 # With exact + surface it comes back too fast. So at CR = 1 the hops get higher (G). At CR below 1,
 # if it is not too small, a slow car gets in each hop what a bounce takes, and hops for ever (H).
-# With backward + surface it comes back too slowly, so at CR = 1 it loses energy (L). The page
-# .github/law.md has the law of this, and the other methods.
+# With backward + surface it comes back no faster, and mostly slower. So at CR = 1 it loses energy
+# (L). The page .github/law.md has the law of this, and the other methods.
 
 def verdict(car: Car, truth: Car) -> str:
     """The letter of a run of SPAN_S, compared with the true car's."""
@@ -834,8 +834,8 @@ def stability(scene: Scene) -> None:
     """Print the map: a row for each method, a column for each rate."""
     say(f"Which methods are right, and from which frame rate on? Each makes {RUNS} runs of "
         f"{SPAN_S} simulated seconds. Each run begins a little later in the motion. A capital "
-        "letter: all runs have it. A small letter: only some runs have it, and the others are "
-        "better. The key goes from the worst to the best.")
+        "letter: all runs have it. A small letter: only some runs have it. The others have letters "
+        "that stand below it in the key.")
     print()
     print(" " * 20 + "".join([str(fps).rjust(6) for fps in MAP_FPS]) + " FPS")
     truths_by_rate = [true_cars(replace(scene, fps_target=fps)) for fps in MAP_FPS]
@@ -977,7 +977,7 @@ COMPARED = [name for name in OF_THE_TRACK if name not in ("motion", "correction"
 COMPARED += ["m_to_px", "width_px"]
 # Whoever sets one of these changes what happens, and not only the picture.
 MOVING = [*OF_THE_TRACK, "fps_target", "use_observed_dt", "jitter"]
-MAX_FRAMES = 50_000  # enough for each example. It ends a --fast film that would go on for ever.
+MAX_FRAMES = 50_000  # enough for each example. It ends a film that would go on for ever.
 
 # What people type because other programs have it, and what it is called here:
 OTHER_NAMES = {
@@ -1024,7 +1024,7 @@ def hint(word: str) -> str:
         return "-h lists all that there are"
     meant = meanings[near[0]]
     if meant in SETTINGS:
-        meant = f"{meant}=VALUE ({SETTINGS[meant].metadata['meaning']}: {allowed_text(meant)})"
+        meant = f"{meant}=VALUE ({SETTINGS[meant].metadata['meaning']}; {allowed_text(meant)})"
     return f"did you mean {meant}?"
 
 def read_words(words: list[str]) -> tuple[str, int, dict[str, Any]]:

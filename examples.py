@@ -392,7 +392,7 @@ class Window:
         pygame = self.pygame
         events = pygame.event.get()
         if any(event.type == pygame.VIDEOEXPOSE for event in events):
-            pygame.display.flip()  # another window has covered it
+            pygame.display.flip()  # it has just appeared, or another window has covered it
         closed = [CLOSED for event in events if event.type == pygame.QUIT]
         return closed + [event.unicode for event in events if event.type == pygame.KEYDOWN]
 
