@@ -111,12 +111,13 @@ def test_the_errors_of_the_chart_are_those_that_are_told(monkeypatch: pytest.Mon
 
 # The cure, as printed.
 
-CURE, PADDLE = block(CURE_PAGE, "from math import sqrt"), block(CURE_PAGE, "u = (paddle")
+CURE = block(CURE_PAGE, "from math import sqrt")
 CODE = compile(CURE, "cure.md", "exec")
 
-def in_game(paddle: str) -> CodeType:
-    """The cure with a block for a paddle in its place."""
-    return compile(CURE.replace("if x < left + r", paddle + "if x < left + r"), "cure.md", "exec")
+def with_paddle(name: str) -> CodeType:
+    """The cure with the block for this paddle in its place."""
+    move, v_line, contacts = re.split(r"(?m)^(v \+= g\*dt.*\n)", CURE)
+    return compile(move + v_line + block(CURE_PAGE, f"u = ({name} -") + contacts, "cure.md", "exec")
 
 def ball(**names: Any) -> dict[str, Any]:
     """What the cure works with, in metres: a ball far from all walls, but for the names."""
@@ -171,42 +172,46 @@ def test_no_ball_falls_through_a_platform_from_above_and_all_come_to_lie_still(C
             assert max(game["y"], bullet["y"]) <= face
         assert game["y"] == pytest.approx(face, abs=1e-3)
 
-def left_paddle() -> str:
-    """The block for a paddle at the left side, by what the page says of it."""
-    code = re.sub(r"\b(old_)?paddle(_top|_bottom)?\b", r"\1paddle2\2", PADDLE)
-    for name in ("before", "after", "x"):
-        told, = re.findall(rf"`({name} = [^`]*2 [^`]*)`", CURE_PAGE)
-        code = re.sub(rf"(?m)\b{name} = [^#\n]*", told, code)
-    return code
-
 @pytest.mark.parametrize("seed", range(10))
-@pytest.mark.parametrize(("side", "name"), [(-1, "paddle2"), (1, "paddle")])
+@pytest.mark.parametrize(("name", "side", "x", "vx", "y", "v", "ends", "walls"), [
+    ("paddle", 1, "x", "vx", "y", "v", "paddle_top paddle_bottom", "ceiling floor"),
+    ("paddle2", -1, "x", "vx", "y", "v", "paddle2_top paddle2_bottom", "ceiling floor"),
+    ("paddle3", 1, "y", "v", "x", "vx", "left3 right3", "left right")])
 def test_a_paddle_takes_each_ball_and_gives_it_its_speed_even_in_a_corner(
-        side: int, name: str, seed: int) -> None:
+        name: str, side: int, x: str, vx: str, y: str, v: str, ends: str, walls: str,
+        seed: int) -> None:
     rng = random.Random(seed)
-    code = in_game(PADDLE if side == 1 else left_paddle())
-    u, CR = rng.uniform(-3, 3), rng.uniform(0, 1)
+    code = with_paddle(name)
+    u, CR, r = rng.uniform(-3, 3), rng.uniform(0, 1), rng.choice([0.1, 0.073])
     face, came = side * 1.0, u + side * rng.uniform(0.1, 30)
-    game = ball(CR=CR, g=0.0, ceiling=2.0, floor=3.0, x=face - side * rng.uniform(0.11, 1), vx=came,
-                y=rng.uniform(2.1, 2.9), v=rng.choice([-20.0, 0.0, 20.0]))
-    game |= {f"old_{name}": face, f"{name}_top": 2.0, f"{name}_bottom": 3.0}
-    behind = game | {"x": face + side * 0.2, "vx": u}
+    game = ball(CR=CR, g=0.0, r=r) | {
+        x: face - side * rng.uniform(0.11, 1), vx: came, y: rng.uniform(2.1, 2.9),
+        v: rng.choice([-20.0, 0.0, 20.0]), f"old_{name}": face}
+    game |= dict.fromkeys([*ends.split()[:1], *walls.split()[:1]], 2.0)
+    game |= dict.fromkeys([*ends.split()[1:], *walls.split()[1:]], 3.0)
+    behind = game | {x: face + side * 0.2, vx: u}
     for _ in range(600):
         face += u / 60
         for each in (game, behind):
             each[name] = face
             exec(code, each)
-        assert side * (face - game["x"]) >= 0.1 - 1e-12
-        assert side * (behind["x"] - face) > 0  # it does not jump
-    assert game["vx"] == pytest.approx(u - CR * (came - u))
+        assert side * (face - game[x]) >= r - 1e-12
+        assert side * (behind[x] - face) > 0  # it does not jump
+    assert game[vx] == pytest.approx(u - CR * (came - u))
+    u = -5 * side * CR  # and now the paddle pushes it, again and again
+    for _ in range(600):
+        game[name] += u / 60
+        exec(code, game)
+        assert side * (game[name] - game[x]) >= r - 1e-12
 
 def test_a_paddle_takes_only_the_balls_that_cross_its_face() -> None:
     rng = random.Random(4)
+    code = with_paddle("paddle")
     for _ in range(300):
         x, y, slope = rng.uniform(720, 747), rng.uniform(0, 400), rng.uniform(-1.5, 1.5)
         game = ball(r=12.8, g=0.0, x=x, y=y, vx=2383.0, v=2383.0 * slope, paddle=760.0,
                     old_paddle=760.0, paddle_top=150.0, paddle_bottom=262.0)
-        exec(in_game(PADDLE), game)
+        exec(code, game)
         assert (game["vx"] < 0) is (150 < y + slope * (760 - 12.8 - x) < 262)
 
 def test_in_pong_mirroring_is_exact() -> None:
