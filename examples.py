@@ -401,7 +401,7 @@ class Window:
 CTRL_C = "\x03"
 WHY_QUIT = {"x": "x was pressed", CTRL_C: "Ctrl-C was pressed", "\x1b": "Esc was pressed",
             CLOSED: "the window was closed"}
-PAUSE_KEYS = ("p", "\x13")  # Ctrl-S. A terminal takes it for itself, and holds the film, too.
+PAUSE_KEYS = ("p", "\x13")  # "\x13" is Ctrl-S. A terminal takes that for itself, and stands still.
 BEGIN_KEYS = ("\r", "\n", CTRL_C)
 READING_S = 10.0  # enough for a short question. p holds the text for slower readers.
 READING_WITHOUT_KEYS_S = 3.0  # nobody can begin it earlier with Enter, so do not keep them
@@ -496,7 +496,8 @@ class Keys:
         while not self.has_begun and not self.why_quit:
             self.look()
             self.hold("the text is held: p lets go, Enter begins the film, x ends it")
-            self.has_begun |= time.perf_counter() >= ends_s
+            if time.perf_counter() >= ends_s:
+                self.has_begun = True
             time.sleep(LOOK_S)
         if self.has_begun_by_ctrl_c:
             print(DIAMOND)

@@ -40,6 +40,19 @@ def test_an_exception_in_a_film_is_shown_and_leaves_the_terminal_as_found() -> N
         assert terminal.program.wait(PATIENCE_S) == 1
         assert terminal.mode() == terminal.found
 
+def test_a_film_whose_terminal_is_gone_ends() -> None:
+    with Terminal(*FILM) as terminal:
+        terminal.until(FRAME)
+        terminal.hang_up()
+        terminal.program.wait(PATIENCE_S)
+
+def test_after_main_every_signal_does_what_it_did_before() -> None:
+    change = ("import signal; handlers = lambda: [*map(signal.getsignal, range(1, 32))]; "
+              "found, real = handlers(), airtrack.main; "
+              "airtrack.main = lambda: [real(), print('the same:', handlers() == found)][0]")
+    with Terminal(*quick(change), "0", "--frames=1") as terminal:
+        terminal.until("the same: True")
+
 def test_keys_count_from_the_very_start_but_arrows_and_other_keys_do_nothing() -> None:
     with Terminal(*HELD) as terminal:
         terminal.press("\r")  # long before Python runs the program
