@@ -353,7 +353,7 @@ def test_the_answers_of_the_worksheet_and_the_figures_of_the_lesson() -> None:
             (LESSON, r"at most ([\d.]+) m from it.* is ([\d.]+) m in the same time",
              [furthest_m(fine), furthest_m(coarse)]),
             (LESSON, r"`\*` ([\d.]+) m, `o` ([\d.]+) m, `\+` ([\d.]+) m", third_m),
-            (LESSON, r"computes one E: ([\d.]+), ([\d.]+) and ([\d.]+) J/kg", third_J)):
+            (LESSON, r"that of the `\+`: ([\d.]+), ([\d.]+) and ([\d.]+) J/kg", third_J)):
         assert figures(page, pattern) == pytest.approx(found, abs=0.0051), pattern
     assert bounces(car)[:2] == [13, 39]
     assert energies.index(min(energies)) == 38
