@@ -85,6 +85,11 @@ def test_the_drawn_collision_by_each_correction(page: str) -> None:
         assert abs(speed) == pytest.approx(abs(v_mps), abs=0.005)
         assert energy == pytest.approx(track.energy(x_m, v_mps), abs=0.005)
 
+def test_the_three_lines_of_rewind_are_the_program_s() -> None:
+    names = {"sqrt": sqrt, "v": 3.0, "a": 20.0, "depth": 0.08, "CR": 0.8}
+    exec(block(README, "late = "), names)
+    assert (names["depth"], names["v"]) == pytest.approx(airtrack.rewind(0.08, 3.0, 20.0, 0.8))
+
 def test_the_rows_of_the_map_are_the_program_s(capsys: pytest.CaptureFixture[str]) -> None:
     main(["stability"])
     out = capsys.readouterr().out
