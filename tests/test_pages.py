@@ -219,6 +219,13 @@ def test_a_paddle_takes_only_the_balls_that_cross_its_face() -> None:
         exec(code, game)
         assert (game["vx"] < 0) is (150 < y + slope * (760 - 12.8 - x) < 262)
 
+def test_a_lying_paddle_at_rest_is_a_floor() -> None:
+    paddle = {"paddle3": 5.0, "old_paddle3": 5.0, "left3": -1e3, "right3": 1e3}
+    game, code = ball(y=3.9, CR=0.9) | paddle, with_paddle("paddle3")
+    for height_m in heights_m(CODE, 300, CR=0.9):
+        exec(code, game)
+        assert 4.9 - game["y"] == pytest.approx(height_m, abs=1e-9)
+
 def test_in_pong_mirroring_is_exact() -> None:
     told, = re.findall(r"write `(y = floor - r - [^`]*)`", CURE_PAGE)
     mirrored = compile(CURE.replace("y = floor - r\n", told + "\n"), "cure.md", "exec")
