@@ -105,7 +105,7 @@ def test_a_film_ends_when_the_car_has_been_at_rest_for_0_3_s_and_ten_frames(
     # It rises from 2 mm to 8 mm: it only passes by.
     "99 x_m=0.252 v_mps=0.005 a_mps2=-0.002 motion=exact correction=replay CR=1",
     "99 x_m=0.27 a_mps2=-2 CR=1 motion=exact correction=replay fps_target=60",  # a hop of 2 cm
-    # Its hops of 1.15 s rise to 3.3 mm. It is below 3 mm for 0.8 s, which is shorter than such a hop.
+    # Its hops of 1.15 s rise to 3.3 mm. It is below 3 mm for 0.8 s, so for less than a hop.
     "99 x_m=0.2533 a_mps2=-0.02 CR=1 motion=exact correction=replay fps_target=60",
     "99 x_m=0.35 a_mps2=-2 CR=1 motion=exact correction=replay fps_target=1"])  # one of 10 cm
 def test_a_car_that_moves_or_is_beyond_a_wall_is_not_at_rest(words: str) -> None:
