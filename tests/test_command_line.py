@@ -102,6 +102,12 @@ def test_h_names_every_setting_example_motion_and_correction_in_80_columns() -> 
     for name in SETTINGS:
         assert re.search(rf"(?m)^ +{name} +\S", text)
 
+@pytest.mark.parametrize("name", ["v_mps", "a_mps2"])
+def test_h_says_to_which_side_a_negative_velocity_or_acceleration_points(name: str) -> None:
+    side, = re.findall(r"below 0 to the (left|right)", SETTINGS[name].metadata["meaning"])
+    places = [line.index("*") for line in shown(f"99 {name}=-1 --frames=30").lines]
+    assert side == ("left" if places[-1] < places[0] else "right")
+
 @pytest.mark.parametrize(("words", "title"), [
     ("", "1, A first look"), ("10", "10, The exact solution"), ("23", "23, your own scene"),
     ("999999999", "999999999, your own scene")])

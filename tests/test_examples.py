@@ -143,6 +143,14 @@ def test_the_speeds_of_the_hops_of_19_20_and_22() -> None:
     leaves_mps = [car.velocities_mps[frame] for frame in bounces(car)]
     assert hops(car)[-1] / 6 - 2 * leaves_mps[-2] == pytest.approx(gain_mps, abs=0.05)  # w - u
 
+def test_the_picture_of_22_ends_where_it_is_told() -> None:
+    high_cm, = told(22, r"higher than (\d+) cm, out of the picture")
+    lines = shown("22 --frames=60").lines
+    places_m = filmed(22, 60).places_m[1:]
+    out_m = [x_m for x_m, line in zip(places_m, lines, strict=True) if line.endswith(">")]
+    in_m = [x_m for x_m, line in zip(places_m, lines, strict=True) if not line.endswith(">")]
+    assert max(in_m) < high_cm / 100 + 0.001 < min(out_m) + 0.01
+
 def test_0_is_at_the_left_wall_after_45_s_and_flies_until_44_s() -> None:
     car = filmed(0, 3000)
     assert car.places_m[-1] == pytest.approx(0.5, abs=1e-3)

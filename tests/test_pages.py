@@ -3,7 +3,7 @@ somewhere, and their figures, which are read on the page, are those of the progr
 
 import random
 import re
-from math import floor, sqrt
+from math import asin, degrees, floor, sqrt
 from types import CodeType
 from typing import Any
 
@@ -84,6 +84,14 @@ def test_the_drawn_collision_by_each_correction(page: str) -> None:
         assert in_m * abs(depth) == pytest.approx(abs(x_m), abs=0.0006)
         assert abs(speed) == pytest.approx(abs(v_mps), abs=0.005)
         assert energy == pytest.approx(track.energy(x_m, v_mps), abs=0.005)
+
+def test_the_film_needs_a_terminal_as_wide_as_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    columns, = figures(README, r"In a terminal below (\d+) columns it is drawn smaller")
+    monkeypatch.setattr("sys.stdout.isatty", lambda: True)
+    scene = scene_of(EXAMPLES[10].settings | {"show_details": True})
+    for fewer in (0, 1):
+        monkeypatch.setenv("COLUMNS", str(round(columns) - fewer))
+        assert (airtrack.fitted(scene) == scene) is (fewer == 0)
 
 def test_the_three_lines_of_rewind_are_the_program_s() -> None:
     names = {"sqrt": sqrt, "v": 3.0, "a": 20.0, "depth": 0.08, "CR": 0.8}
@@ -218,6 +226,27 @@ def test_a_paddle_takes_only_the_balls_that_cross_its_face() -> None:
                     old_paddle=760.0, paddle_top=150.0, paddle_bottom=262.0)
         exec(code, game)
         assert (game["vx"] < 0) is (150 < y + slope * (760 - 12.8 - x) < 262)
+
+def test_the_figures_of_the_cure() -> None:
+    usual = CURE.replace("y += v*dt + g*dt*dt/2  # an exact move: first y,\nv += g*dt ",
+                         "v += g*dt\ny += v*dt ")
+    heights = tops_m(heights_m(compile(usual, "cure.md", "exec"), 300))[:3]
+    assert figures(CURE_PAGE, r"comes back to ([\d.]+), ([\d.]+) and ([\d.]+) m") == pytest.approx(
+        heights, abs=0.0051)
+    game = ball(floor=5.0, y=3.9, g=9.81)
+    found_s = []
+    for frame in range(1, 1400):
+        before = game["v"]
+        exec(CODE, game)
+        if before > 0 > game["v"]:
+            found_s.append(frame / 60)
+    true_s = (2 * 21 + 1) * sqrt(2 / 9.81)  # its last bounce within 20 s
+    assert figures(CURE_PAGE, r"the ball is (\d+) frames late") == pytest.approx(
+        [60 * (found_s[21] - true_s)], abs=0.5)
+    for fps in (30, 60):  # with v - g dt, v - 2 g dt ... until it turns
+        told, = figures(CURE_PAGE, rf"(\d+) px(?: high)? at {fps} FPS")
+        speeds = [600 - 1000 / fps * n for n in range(1, 100)]
+        assert told == pytest.approx(sum(speed for speed in speeds if speed > 0) / fps)
 
 def test_a_lying_paddle_at_rest_is_a_floor() -> None:
     paddle = {"paddle3": 5.0, "old_paddle3": 5.0, "left3": -1e3, "right3": 1e3}
@@ -364,6 +393,8 @@ def test_the_answers_of_the_worksheet_and_the_figures_of_the_lesson() -> None:
             (SHEET, r"to the first turn: +14 +- +26 · +1 += +(-\d+) +cm", [short_cm]),
             (LESSON, r"at most ([\d.]+) m from it.* is ([\d.]+) m in the same time",
              [furthest_m(fine), furthest_m(coarse)]),
+            (LESSON, r"is 2 m/s², . is about (\d+)°. .* 1.5 m/s², it is about (\d+)°",
+             [round(degrees(asin(a_mps2 / 9.81))) for a_mps2 in (2, 1.5)]),
             (LESSON, r"`\*` ([\d.]+) m, `o` ([\d.]+) m, `\+` ([\d.]+) m", third_m),
             (LESSON, r"that of the `\+`: ([\d.]+), ([\d.]+) and ([\d.]+) J/kg", third_J)):
         assert figures(page, pattern) == pytest.approx(found, abs=0.0051), pattern

@@ -34,6 +34,7 @@ def test_a_step_adds_or_takes_a2_dt2_halves_or_leaves_the_energy_which_is_0_on_t
 
 @given(part=parts, v_mps=speeds, a_mps2=accelerations, CR=parts,
        dt_s=rationals(0.001, 4) | rationals(4, 1000))
+@example(part=ONE / 2, v_mps=10 * ONE, a_mps2=-8 * ONE, CR=ONE / 2, dt_s=2 * ONE)  # has turned
 def test_however_far_a_move_goes_each_correction_leaves_the_place_and_speed_that_it_promises(
         part: Rational, v_mps: Rational, a_mps2: Rational, CR: Rational, dt_s: Rational) -> None:
     left_m: Rational = -3 * ONE / 4

@@ -123,18 +123,21 @@ def test_keys_that_were_typed_and_not_read_do_not_reach_the_shell() -> None:
         shell.until("status 0")
         assert "xecho" not in shell.all
 
-def test_a_terminal_shows_the_marks_in_colours_unless_that_is_not_wanted() -> None:
+def test_a_terminal_shows_o_and_0_in_colours_for_any_background_unless_that_is_not_wanted() -> None:
     words = "0 d x_m=17 v_mps=100 width_px=140 show_collision_mark=True motion=exact --frames=1"
     frames = []
-    for line in ('"$@"', 'NO_COLOR=1 "$@"', 'TERM=dumb "$@"', '"$@" | cat'):
+    for line in ('"$@"', 'NO_COLOR= "$@"', 'NO_COLOR=1 "$@"', 'TERM=dumb "$@"', 'env -u TERM "$@"',
+                 '"$@" | cat'):
         with Terminal("sh", "-c", line, "sh", *quick(), *words.split()) as terminal:
             terminal.ends(0)
         shown, = [shown for shown in terminal.all.splitlines() if FRAME in shown]
         frames.append(shown.partition(FRAME)[0])
-    coloured, *others = frames
+    coloured, also_coloured, *others = frames
+    assert coloured == also_coloured
     assert "\x1b" not in coloured.partition("x = ")[2]  # figures are no marks
-    assert set(re.findall("\x1b\\[[0-9]+m(.)\x1b\\[0m", coloured)) == {"o", "0"}
-    assert others == [re.sub("\x1b\\[[0-9]+m(.)\x1b\\[0m", r"\1", coloured)] * 3
+    found = re.findall("\x1b\\[([0-9]+)m(.)\x1b\\[0m", coloured)
+    assert sorted(found) == [("31", "0"), ("32", "o")]  # red and green: yellow is not seen on white
+    assert others == [re.sub("\x1b\\[[0-9]+m(.)\x1b\\[0m", r"\1", coloured)] * 4
 
 def test_in_a_narrow_terminal_no_line_wraps_and_one_says_that_the_picture_is_smaller() -> None:
     for columns in (80, 200):
