@@ -57,6 +57,11 @@ def test_the_table_of_a_small_film_worked_out_by_hand(
     assert film.rows == rows
     assert film.answer.partition("? ")[2] == answer
 
+def test_all_methods_but_those_that_cannot_begin_at_the_start_beyond_a_wall() -> None:
+    rows = shown("99 x_m=3 a_mps2=-2 show_methods=True --frames=1").rows  # 2.75 m above the floor
+    starts = {mark: row.replace("the truth", "0 m").split()[5] for mark, row in rows.items()}
+    assert starts == dict.fromkeys("*abc", "5.5") | dict.fromkeys("ode", "3.9")
+
 def test_the_answer_is_about_the_whole_film_and_a_car_may_rest_from_its_start_on() -> None:
     film = shown("3 correction=surface --frames=400")  # in the end both cars lie at the floor
     assert film.answer.endswith(" No.")
@@ -168,6 +173,7 @@ def test_a_changed_example_draws_the_o_and_with_another_method_the_plus(
     number = int(words.split()[0])
     for mark in "*+o":
         assert (mark in "".join(film.lines)) is (mark in drawn)  # where the * does not hide it
+    assert "show_" not in film.intro  # that is no setting of the motion
     if number in EXAMPLES:
         assert ("changed" in film.intro) is is_changed
         assert (plain(EXAMPLES[number].look_for) in film.intro) is not is_changed

@@ -108,6 +108,15 @@ def test_h_says_to_which_side_a_negative_velocity_or_acceleration_points(name: s
     places = [line.index("*") for line in shown(f"99 {name}=-1 --frames=30").lines]
     assert side == ("left" if places[-1] < places[0] else "right")
 
+@pytest.mark.parametrize(("ending", "unit"), [
+    ("_m", "in m"), ("_mps", "in m/s"), ("_mps2", "in m/s^2"), ("_px", "columns")])
+def test_h_names_the_unit_that_a_setting_has_in_its_name(ending: str, unit: str) -> None:
+    named = [name for name in SETTINGS if name.endswith(ending)]
+    assert named
+    for name in named:
+        assert re.search(rf"{re.escape(unit)}(?![/\w])", SETTINGS[name].metadata["meaning"])
+    assert re.search(r"columns for each m$", SETTINGS["m_to_px"].metadata["meaning"])
+
 @pytest.mark.parametrize(("words", "title"), [
     ("", "1, A first look"), ("10", "10, The exact solution"), ("23", "23, your own scene"),
     ("999999999", "999999999, your own scene")])
@@ -115,6 +124,7 @@ def test_without_a_number_it_is_example_1_and_any_larger_number_is_a_scene(
         words: str, title: str) -> None:
     assert title in shown(f"{words} --frames=1").intro
     assert "jitter=0.25" in shown("9 --frames=1").intro  # all that moves the car is told
+    assert "x_m=1.23456789 " in shown("9 x_m=1.23456789 --frames=1").intro  # and as it was typed
 
 def test_words_and_true_and_false_may_be_typed_in_small_or_large_letters_and_a_minus_as_printed(
         monkeypatch: pytest.MonkeyPatch) -> None:

@@ -53,6 +53,8 @@ def test_with_jitter_frames_are_irregular_and_a_fast_film_has_the_same(
     found_s = steps_s(play(words, NOW))
     assert found_s == pytest.approx(clock.lengths_s(), abs=0.002)
     assert found_s == pytest.approx(steps_s(play(f"{words} --fast")), abs=0.002)
+    ending, = re.findall(r"Stopped after 500 frames, t = ([\d.]+) s", play(f"{words} --fast"))
+    assert float(ending) == pytest.approx(sum(found_s) + found_s[0], abs=0.15)
     spread_s = [sorted(found_s)[place] for place in (0, 124, 249, 374, 498)]
     assert spread_s == pytest.approx([0.01, 0.055, 0.1, 0.145, 0.19], abs=0.003)
 

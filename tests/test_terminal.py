@@ -149,3 +149,8 @@ def test_in_a_narrow_terminal_no_line_wraps_and_one_says_that_the_picture_is_sma
         assert max(len(line) for line in lines if FRAME not in line) <= 100
         picture, = [line.partition("x =")[0] for line in lines if FRAME in line]
         assert any(f" {len(picture)} columns" in line for line in lines) is (columns == 80)
+        told = re.findall(r"A column is ([0-9.]+) m", " ".join(lines))
+        assert bool(told) is (columns == 80)
+        if told:
+            walls = picture.rindex("|") - picture.index("|")
+            assert float(told[0]) == pytest.approx((2.2 - 0.25) / walls, rel=0.05)
