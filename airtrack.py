@@ -913,11 +913,9 @@ def cars_of(scene: Scene, unchanged: Scene | None) -> dict[str, Car]:
     cars["*"] = Car(scene)
     return cars
 
-def film(number: int, scene: Scene, cars: dict[str, Car], texts: Example, is_fast: bool,
-         max_frames: int) -> None:
-    """Say what to look for, leave time to guess, show the film, and say what was to be seen."""
+def introduce(number: int, scene: Scene, drawn: Scene, cars: dict[str, Car], texts: Example) -> None:
+    """Say which film this is, what one needs to know, and what to look for."""
     say(f"{number}, {texts.title}: {settings_text(scene, [*OF_THE_TRACK, 'fps_target'])}")
-    drawn = fitted(scene)
     if drawn.width_px < scene.width_px:
         say(f"The terminal is narrow, so the picture is drawn {drawn.width_px} columns wide. A "
             f"column is {drawn.column_m():.2g} m wide there.")
@@ -928,6 +926,12 @@ def film(number: int, scene: Scene, cars: dict[str, Car], texts: Example, is_fas
     if "+" in cars:
         say("+ is the car with the example's own method. You have changed the method of the *.")
     say(texts.look_for)
+
+def film(number: int, scene: Scene, cars: dict[str, Car], texts: Example, is_fast: bool,
+         max_frames: int) -> None:
+    """Say what to look for, leave time to guess, show the film, and say what was to be seen."""
+    drawn = fitted(scene)
+    introduce(number, scene, drawn, cars, texts)
     taking = nullcontext() if is_fast else taken_keys()
     with taking as keys:
         if keys is not None:
@@ -941,7 +945,8 @@ def film(number: int, scene: Scene, cars: dict[str, Car], texts: Example, is_fas
     if texts.seen and not is_fast:
         print()
         say(texts.seen)
-        print(f"Next: {PYTHON} airtrack.py {number + 1 if number + 1 in EXAMPLES else 'chart'}")
+        following = number + 1 if number + 1 in EXAMPLES else "chart"
+        print(f"Next: {PYTHON} airtrack.py {following}")
 
 def print_table(cars: dict[str, Car]) -> None:
     """Print what the cars have done, and whether the * was right."""
