@@ -913,7 +913,8 @@ def cars_of(scene: Scene, unchanged: Scene | None) -> dict[str, Car]:
     cars["*"] = Car(scene)
     return cars
 
-def introduce(number: int, scene: Scene, drawn: Scene, cars: dict[str, Car], texts: Example) -> None:
+def introduce(number: int, scene: Scene, drawn: Scene, cars: dict[str, Car],
+              texts: Example) -> None:
     """Say which film this is, what one needs to know, and what to look for."""
     say(f"{number}, {texts.title}: {settings_text(scene, [*OF_THE_TRACK, 'fps_target'])}")
     if drawn.width_px < scene.width_px:

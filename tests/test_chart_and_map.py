@@ -152,6 +152,7 @@ def test_the_picture_has_each_point_below_its_error_and_beside_its_cost(capsys: 
             found.append((mark[0], float(row.split()[0]), error))
         if "+" in row:
             assert row.index("|") == scale.index("0.1 m ")  # a column of the film
+            assert out.splitlines()[0].index("|") == row.index("|")
     assert sorted(found) == [("+", 100, "1 cm"), ("a", 10, "1 mm"), ("c", 10, "<=1 um"),
                              ("d", 1, ">=10 m"), ("e", 100, "0.1 mm")]
 
