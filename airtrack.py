@@ -1017,7 +1017,7 @@ def value_of(name: str, text: str) -> Any:
             value = int(digits) if isinstance(SETTINGS[name].default, int) else float(digits)
             if least <= value <= largest:
                 return value
-    raise Refused(f"{name} must be {allowed_text(name)}, not {text or 'nothing'}")
+    raise Refused(f"{name} must be {allowed_text(name)}, not {text!r}")
 
 def hint(word: str) -> str:
     """What may have been meant by an unknown word."""

@@ -46,7 +46,7 @@ def stubbed(patch: pytest.MonkeyPatch) -> list[Any]:
     ("width_px=99.5", "width_px 99.5 whole"), ("auto_off=yes", "auto_off yes True False"),
     ("motion=euler", "motion euler forward backward exact"),
     ("correction=bounce", "correction bounce none surface rebound conserve rewind replay"),
-    ("CR=0,9", "CR 0,9"), ("CR=", "CR nothing 0 1"), ("CR 0.7", "CR=VALUE 0 1"),
+    ("CR=0,9", "CR 0,9"), ("CR=", "CR 0 1"), ("CR 0.7", "CR=VALUE 0 1"),
     ("10 left_edge_m=3", "right_edge_m 2.2 left_edge_m"),
     ("right_edge_m=0.255", "right_edge_m 0.255 0.01"), ("10 motion=forward", "rewind motion=exact"),
     ("12 x_m=0.2", "x_m 0.2 rewind"), ("3 d 4", "3 4 one"), ("--frames x", "--frames x whole"),
