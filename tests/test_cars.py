@@ -65,6 +65,9 @@ def test_all_methods_but_those_that_cannot_begin_at_the_start_beyond_a_wall() ->
 def test_the_answer_is_about_the_whole_film_and_a_car_may_rest_from_its_start_on() -> None:
     film = shown("3 correction=surface --frames=400")  # in the end both cars lie at the floor
     assert film.answer.endswith(" No.")
+    for frames, answer in ((1, "Yes."), (2, "No.")):  # 1 cm off, 2 cm; a column is 1.8 cm
+        film = shown(f"99 x_m=1 a_mps2=-2 fps_target=10 --frames={frames}")
+        assert film.answer.endswith(f" {answer}")
     assert rest_frame(shown("99").rows["*"]) == 0
 
 def test_the_mean_energy_is_that_of_the_last_5_s_or_of_a_shorter_film() -> None:

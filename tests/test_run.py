@@ -69,6 +69,15 @@ def test_p_pauses_and_then_the_film_goes_on_without_a_race_or_a_leap(
     assert steps_s(out) == pytest.approx([0.1] * 19, abs=0.002)
     assert set(re.findall(r"FPS = +([0-9]+)", out)) == {"10"}
 
+def test_the_frame_after_a_pause_shows_the_planned_rate(clock: Clock, play: Play) -> None:
+    words = f"{FREE} fps_target=10 jitter=0.5 use_observed_dt=True"
+    out = play(words, NOW | {1: "p", 3: "p", 5: "x"})
+    rates = [float(rate) for rate in re.findall(r"FPS = +([0-9]+)", out)]
+    lengths_s = clock.lengths_s()
+    after = lengths_s.index(max(lengths_s)) + 1
+    assert rates[after] == 10
+    assert 10 not in (rates[after - 1], rates[after + 1])
+
 def test_after_a_pause_the_next_frame_comes_at_once(clock: Clock, play: Play) -> None:
     play("99 v_mps=1 fps_target=0.2", NOW | {6: "p", 9: "p", 15: "x"})
     assert clock.frames_s == pytest.approx([0, 5, 9, 14], abs=0.2)
