@@ -214,6 +214,8 @@ def test_the_bounds_of_the_letters(
 def test_some_late_frames_are_not_all_late_frames() -> None:
     flies = car_of([FLIES] * 81)
     assert verdict(flies, car_of([FLIES] * 61 + [LIES] * 20)) == "G"  # so it does not lie still
+    stuck = [FLIES] * 60 + [(-1e-9, 0.0)] * 21  # it is stuck, although never a column off
+    assert verdict(car_of(stuck), car_of([FLIES] * 60 + [LIES] * 21)) == "S"
     beyond = [(-0.1, 1.0), (1.1, 1.0)] * 10  # now the one wall, now the other
     assert verdict(car_of([FLIES] * 61 + beyond), flies) != "S"  # so it is not stuck
 

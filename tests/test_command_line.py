@@ -54,6 +54,8 @@ def stubbed(patch: pytest.MonkeyPatch) -> list[Any]:
     ("chart d", "chart d x_m CR"), ("chart --fast", "chart --fast"),
     ("chart --frames 50000", "chart --frames"), ("stability 3 --frames 9", "stability --frames"),
     ("stability 5 motion=exact", "stability motion x_m CR m_to_px"),
+    ("chart show_methods=True", "chart show_methods"), ("stability auto_off=False", "auto_off"),
+    ("chart jitter=0.1", "chart jitter"), ("stability fps_target=9", "stability fps_target"),
     # the nearest right name, if there is one
     ("dt=0.1", "dt=0.1 fps_target=VALUE"), ("widht_px=9", "width_px=VALUE"), ("-d", "-d d"),
     ("Stabilty", "stability"), ("conserv", "correction=conserve"), ("Exact", "motion=exact"),
@@ -141,6 +143,9 @@ def test_a_command_in_any_place_is_for_example_12_or_another(
     got = stubbed(monkeypatch)
     for words in ([command], *permutations([command, "3", "CR=0.5"])):
         assert main([*words]) == 0
+    told = re.findall(r"a film shows example (\d+),\s+and chart and stability take example (\d+)",
+                      str(airtrack.__doc__))
+    assert told == [("1", "12")]  # for a film without a number see above
     starts = [(scene.x_m, scene.a_mps2, scene.CR) for scene in got]
     assert starts == [(2.0, -2.0, 0.8), *[(2.0, -1.5, 0.5)] * 6]
 
