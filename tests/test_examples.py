@@ -143,6 +143,10 @@ def test_the_speeds_of_the_hops_of_19_20_and_22() -> None:
     leaves_mps = [car.velocities_mps[frame] for frame in bounces(car)]
     assert hops(car)[-1] / 6 - 2 * leaves_mps[-2] == pytest.approx(gain_mps, abs=0.05)  # w - u
 
+def test_1_rests_for_as_long_as_it_is_told_before_its_film_ends() -> None:
+    rests_s = len(shown("99 fps_target=50").lines) / 50
+    assert told(1, r"for ([\d.]+) s the car was too low") == [rests_s]
+
 def test_the_picture_of_22_ends_where_it_is_told() -> None:
     high_cm, = told(22, r"higher than (\d+) cm, out of the picture")
     lines = shown("22 --frames=60").lines

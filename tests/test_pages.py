@@ -248,6 +248,16 @@ def test_the_figures_of_the_cure() -> None:
         speeds = [600 - 1000 / fps * n for n in range(1, 100)]
         assert told == pytest.approx(sum(speed for speed in speeds if speed > 0) / fps)
 
+def test_what_was_for_60_fps_is_the_same_with_dt() -> None:
+    speeds, g = figures(CURE_PAGE, r"multiply all speeds by (\d+) and g by (\d+)")
+    assert (speeds, g) == (60, 60**2)  # px a frame, px a frame in each frame
+    drag, = re.findall(r"write `(v \*= 0\.99\*\*[^`]*)`", CURE_PAGE)
+    for fps in (30, 60):
+        names = {"v": 1.0, "dt": 1 / fps}
+        for _ in range(fps):
+            exec(drag, names)
+        assert names["v"] == pytest.approx(0.99**60)  # after a second
+
 def test_a_lying_paddle_at_rest_is_a_floor() -> None:
     paddle = {"paddle3": 5.0, "old_paddle3": 5.0, "left3": -1e3, "right3": 1e3}
     game, code = ball(y=3.9, CR=0.9) | paddle, with_paddle("paddle3")
@@ -353,6 +363,14 @@ def test_the_worked_rows_of_the_law_are_those_of_its_steps(
     for (_, _, *found), (n, w, depth_m, _) in zip(printed, steps, strict=True):
         assert found == pytest.approx([n, w, depth_m], abs=1e-4)
 
+def test_the_longest_steady_hops_follow_from_the_bounds_of_k() -> None:
+    factor, once, twice = figures(
+        LAW, r"0.8 this factor is (\d+)\. .* at most (\d+) frames .* at most (\d+) with exact")
+    assert factor == round(1.8 / 0.2)
+    for longest, motion, correction in ((once, "exact", "surface"), (once, "backward", "rebound"),
+                                        (twice, "exact", "rebound")):
+        assert longest < k_bounds(motion, correction)[1] * factor <= longest + 1
+
 # The lesson.
 
 def test_the_worksheet_shows_the_film_of_the_lesson_s_command() -> None:
@@ -408,6 +426,8 @@ def test_the_columns_of_the_lesson_are_those_of_its_films() -> None:
     columns = [line.find("*") - line.index("|") for line in lines]
     turns = [max(columns[:70]), max(columns[70:120]), max(columns[125:160]), max(columns[165:185])]
     assert turns == figures(LESSON, r"starts and turns: (\d+), (\d+), (\d+) and (\d+)")
+    ends_s, = figures(LESSON, r"After ([\d.]+) s the film would end by itself")
+    assert ends_s == pytest.approx(len(lines) / 30, abs=0.05)
     lines = shown(f"16 {picture} --frames=52").lines
     assert "o" not in lines[51]
     apart = figures(LESSON, r"In line 40 they are (\d+) columns apart")
@@ -446,6 +466,10 @@ def test_the_energies_of_exercise_1() -> None:
 def test_the_hops_of_exercise_4_and_the_hops_and_turns_of_the_lab() -> None:
     car = filmed(20, 60, CR=0.6, motion="forward", correction="surface")
     assert hops(car)[:6] == figures(EXERCISES, r"hops of (\d+) (\d+) (\d+) (\d+) (\d+) (\d+) 6 …")
+    rests = shown("12 CR=0.9 correction=replay auto_off=False --frames=270").rows["*"]
+    assert figures(rests, r"from frame (\d+)")[0] / 10 == pytest.approx(
+        figures(EXERCISES, r"at about ([\d.]+) s, because")[0], abs=0.3)
+    assert figures(EXERCISES, r"If a frame is over ([\d.]+) s late") == [airtrack.STALL_S]
     words = block(EXERCISES, "x_m=1.5").split()[4:]
     car = filmed(99, 500, **{name: airtrack.value_of(name, text)
                              for name, text in [word.split("=") for word in words]})
