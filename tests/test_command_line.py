@@ -104,6 +104,12 @@ def test_h_names_every_setting_example_motion_and_correction_in_80_columns() -> 
     for name in SETTINGS:
         assert re.search(rf"(?m)^ +{name} +\S", text)
 
+def test_without_frames_a_film_ends_after_as_many_as_h_says() -> None:
+    text = subprocess.run([*COMMAND, "-h"], env=environment(), stdout=subprocess.PIPE, text=True,
+                          check=True).stdout
+    limit, = re.findall(r"stop after N frames; without it, after\s+(\d+)", text)
+    assert len(shown("14").lines) == int(limit) == 50_000
+
 @pytest.mark.parametrize("name", ["v_mps", "a_mps2"])
 def test_h_says_to_which_side_a_negative_velocity_or_acceleration_points(name: str) -> None:
     side, = re.findall(r"below 0 to the (left|right)", SETTINGS[name].metadata["meaning"])

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import pytest
 
+import airtrack
 from airtrack import Scene, cars_of, main, render_track
 from films import details, shown
 
@@ -38,6 +39,8 @@ def test_where_marks_meet_the_one_that_is_first_in_this_order_is_seen() -> None:
         assert render_track(scene, places_m, 1.0)[10] == first
 
 def test_the_details_tell_the_place_of_the_car_and_how_far_to_the_right_of_the_o_it_is() -> None:
+    assert re.findall(r"err: how far to the\s+(right|left)", str(airtrack.__doc__)) == [
+        "right"]  # as -h says
     for line in shown("17 d --frames=60").lines:  # 55 columns/m
         picture, text = line[:135], line[135:]
         x_m, _ = details(text)

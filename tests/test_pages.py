@@ -119,6 +119,8 @@ def test_the_errors_of_the_chart_are_those_that_are_told(monkeypatch: pytest.Mon
     rewind_mm, least_mm, most_mm = figures(
         README, r"rewind at 10 FPS is ([\d.]+) mm off .* table are ([\d.]+) to ([\d.]+) mm off")
     assert 1000 * errors_m(10)["exact", "rewind"] == pytest.approx(rewind_mm, abs=0.05)
+    late_cm, = figures(README, r"at 60 FPS the car is up to ([\d.]+) cm off")
+    assert 100 * errors_m(60)["exact", "conserve"] == pytest.approx(late_cm, abs=0.05)
     others_mm = [1000 * error_m for error_m in errors_m(960).values()][:3]
     assert [min(others_mm), max(others_mm)] == pytest.approx([least_mm, most_mm], rel=0.02)
 
