@@ -1,6 +1,7 @@
 """Runs of the program, for the tests: in this process, or as a user starts it."""
 
 import contextlib
+import functools
 import io
 import os
 import re
@@ -13,7 +14,10 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from airtrack import Car, main, scene_of, step, ticks, truth_of
+import pytest
+
+import airtrack
+from airtrack import COMPARED, Car, Scene, main, measured, scene_of, step, ticks, truth_of
 from examples import EXAMPLES, OWN_SCENE
 
 if sys.platform != "win32":
@@ -81,6 +85,19 @@ def true_m(car: Car) -> list[float]:
 def furthest_m(car: Car) -> float:
     """How far the car was from its true car at most."""
     return max(abs(x_m - place_m) for x_m, place_m in zip(car.places_m, true_m(car), strict=True))
+
+def compared(number: int, fps: float) -> Scene:
+    """An example as chart and map take it."""
+    settings = EXAMPLES[number].settings
+    kept = {name: settings[name] for name in COMPARED if name in settings}
+    return scene_of(kept | {"fps_target": fps})
+
+@functools.cache
+def chart_errors_m(number: int, fps: float) -> dict[str, float]:
+    """The errors in the chart of an example at a rate, by their letters. Costs are not measured."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(airtrack, "costs_us", lambda scenes: dict.fromkeys(scenes, 1.0))
+        return {point.letter: point.error_m for point in measured(compared(number, fps))}
 
 def bounces(car: Car) -> list[int]:
     """The frames in which a collision was found."""

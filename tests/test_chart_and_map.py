@@ -9,25 +9,10 @@ from types import SimpleNamespace
 import pytest
 
 import airtrack
-from airtrack import COMPARED, METHODS, VERDICTS, Car, Point, Scene, main, verdict, worst_of
-from examples import EXAMPLES
-from films import shown
+from airtrack import METHODS, VERDICTS, Car, Point, Scene, main, verdict, worst_of
+from films import chart_errors_m, compared, shown
 
 Capture = pytest.CaptureFixture[str]
-
-def compared(number: int, fps: float) -> Scene:
-    """An example as chart and map take it."""
-    settings = EXAMPLES[number].settings
-    kept = {name: settings[name] for name in COMPARED if name in settings}
-    return airtrack.scene_of(kept | {"fps_target": fps})
-
-def largest_m(number: int, letter: str, fps: float) -> float:
-    """How far a method gets from the truth, by the chart."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(airtrack, "costs_us", lambda scenes: dict.fromkeys(scenes, 1.0))
-        points = airtrack.measured(compared(number, fps))
-    error_m, = [point.error_m for point in points if point.letter == letter]
-    return error_m
 
 def letters_of(number: int, motion: str, correction: str, fps: float) -> list[str]:
     """The verdicts on the ten runs."""
@@ -61,12 +46,12 @@ def test_the_error_is_the_largest_of_ten_runs_that_begin_at_different_moments() 
                 h_m = min(h_m, 3.9 - h_m)
             error_m = max(error_m, abs(h_m - true_state(begins_s + frame * dt_s)[0]))
         errors_m.append(error_m)
-    assert largest_m(10, "a", 240) == pytest.approx(max(errors_m), rel=1e-6)
+    assert chart_errors_m(10, 240)["a"] == pytest.approx(max(errors_m), rel=1e-6)
     assert max(errors_m) > 2 * max(errors_m[0], errors_m[-1])  # neither the first nor the last one
 
 def test_in_example_12_a_b_and_c_have_order_1_and_d_has_order_2() -> None:
     for letter, order in zip("abcd", (1, 1, 1, 2), strict=True):
-        ratio = largest_m(12, letter, 30) / largest_m(12, letter, 240)
+        ratio = chart_errors_m(12, 30)[letter] / chart_errors_m(12, 240)[letter]
         assert round(math.log2(ratio) / 3) == order  # the rate is doubled three times
 
 def test_the_cost_is_the_least_time_that_the_steps_of_a_simulated_second_take_each_in_its_turn(
@@ -261,7 +246,7 @@ def test_film_chart_and_map_agree_on_what_is_within_a_column() -> None:
         motion, correction = METHODS[letter]
         words = f"10 motion={motion} correction={correction} auto_off=False --frames=200"
         in_film_m = float(shown(words).rows["*"].split()[3])  # one of the ten runs, to 0.1 mm
-        in_chart_m = largest_m(10, letter, 10)
+        in_chart_m = chart_errors_m(10, 10)[letter]
         assert in_film_m <= in_chart_m + 1e-4
         in_map = set(letters_of(10, fps=10, motion=motion, correction=correction))
         assert (in_map == {"-"}) is (in_chart_m <= 1 / 55)

@@ -35,12 +35,9 @@ def turns_m(number: int, **changes: Any) -> list[float]:
 def hop_lines(number: int, **changes: Any) -> list[float]:
     return [float(lines) for lines in hops(filmed(number, 600, **changes))]
 
-def off_m(frames: int) -> Callable[..., list[float]]:
-    """How far it is from the truth within so many frames."""
-    return lambda number, **changes: [furthest_m(filmed(number, frames, **changes))]
-
-def off_cm(frames: int) -> Callable[..., list[float]]:
-    return lambda number, **changes: [100 * furthest_m(filmed(number, frames, **changes))]
+def off(frames: int, unit_m: float = 1.0) -> Callable[..., list[float]]:
+    """How far it is from the truth within so many frames, in this unit."""
+    return lambda number, **changes: [furthest_m(filmed(number, frames, **changes)) / unit_m]
 
 @pytest.mark.parametrize(("number", "pattern", "found", "changes"), [
     (1, r"In frame (\d+) the film stops", stops, {}), (4, r"stops after (\d+) frames", stops, {}),
@@ -60,15 +57,15 @@ def off_cm(frames: int) -> Callable[..., list[float]]:
     (19, r"the hops take (\d+), (\d+), (\d+) \.\.\. lines, down", hop_lines, {}),
     (19, r"Then the hops take (\d+), (\d+), (\d+) \.\.\. lines", hop_lines, EXACT),
     (20, r"take (\d+), (\d+), (\d+) lines and", hop_lines, {}),
-    (12, r"about ([\d.]+) mm off", lambda number: [1000 * furthest_m(filmed(number, 130))], {}),
-    (16, r"they are ([\d.]+) cm apart in frame 1", off_cm(1), {}),
-    (16, r"([\d.]+) cm in frame 2", off_cm(2), {}),
-    (16, r"up to ([\d.]+) m within", off_m(200), {}),
-    (17, r"up to ([\d.]+) m within 20 s", off_m(200), {}),
-    (18, r"about ([\d.]+) m apart", off_m(4), {}), (21, r"first, by ([\d.]+) cm", off_cm(1), A),
-    (21, r"Within 20 s it gets up to ([\d.]+) m away", off_m(200), A),
-    (21, r"b gets furthest away, up to ([\d.]+) m", off_m(200), B),
-    (21, r"seven times, and gets up to ([\d.]+) m away", off_m(200), C)])
+    (12, r"about ([\d.]+) mm off", off(130, 0.001), {}),
+    (16, r"they are ([\d.]+) cm apart in frame 1", off(1, 0.01), {}),
+    (16, r"([\d.]+) cm in frame 2", off(2, 0.01), {}),
+    (16, r"up to ([\d.]+) m within", off(200), {}),
+    (17, r"up to ([\d.]+) m within 20 s", off(200), {}),
+    (18, r"about ([\d.]+) m apart", off(4), {}), (21, r"first, by ([\d.]+) cm", off(1, 0.01), A),
+    (21, r"Within 20 s it gets up to ([\d.]+) m away", off(200), A),
+    (21, r"b gets furthest away, up to ([\d.]+) m", off(200), B),
+    (21, r"seven times, and gets up to ([\d.]+) m away", off(200), C)])
 def test_the_film_has_the_figures_that_its_text_tells(
         number: int, pattern: str, found: Callable[..., list[float]], changes: Changes) -> None:
     figures = told(number, pattern)

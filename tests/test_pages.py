@@ -12,7 +12,7 @@ import pytest
 import airtrack
 from airtrack import METHODS, Track, main, scene_of, step
 from examples import EXAMPLES
-from films import HERE, bounces, filmed, furthest_m, hops, shown, tops_m, true_m
+from films import HERE, bounces, chart_errors_m, filmed, furthest_m, hops, shown, tops_m, true_m
 
 FILES = {path.name: path for path in (HERE / "README.md", *sorted(HERE.glob(".github/*.md")))}
 PAGES = {name: path.read_text(encoding="utf-8") for name, path in FILES.items()}
@@ -104,24 +104,21 @@ def test_the_rows_of_the_map_are_the_program_s(capsys: pytest.CaptureFixture[str
     for row in block(README, "480 FPS").splitlines():
         assert row in out
 
-def test_the_errors_of_the_chart_are_those_that_are_told(monkeypatch: pytest.MonkeyPatch) -> None:
-    def errors_m(fps: int) -> dict[tuple[str, str], float]:
-        points = airtrack.measured(scene_of(EXAMPLES[12].settings | {"fps_target": fps}))
-        return {METHODS[point.letter]: point.error_m for point in points}
-
-    monkeypatch.setattr(airtrack, "costs_us", lambda scenes: dict.fromkeys(scenes, 1.0))
+def test_the_errors_of_the_chart_are_those_that_are_told() -> None:
+    letters = {method: letter for letter, method in METHODS.items()}
     rows = re.findall(r"(?m)^\| (\w+) \+ (\w+) \|[^|]*\| from (\d+) FPS on", README)
     assert len(rows) == 3
     for motion, correction, fps in rows:
         below = airtrack.CHART_FPS[airtrack.CHART_FPS.index(int(fps)) - 1]
-        at_m, below_m = [errors_m(rate)[motion, correction] for rate in (int(fps), below)]
+        at_m, below_m = [chart_errors_m(12, rate)[letters[motion, correction]]
+                         for rate in (int(fps), below)]
         assert at_m <= 1 / 55 < below_m
     rewind_mm, least_mm, most_mm = figures(
         README, r"rewind at 10 FPS is ([\d.]+) mm off .* table are ([\d.]+) to ([\d.]+) mm off")
-    assert 1000 * errors_m(10)["exact", "rewind"] == pytest.approx(rewind_mm, abs=0.05)
+    assert 1000 * chart_errors_m(12, 10)["d"] == pytest.approx(rewind_mm, abs=0.05)
     late_cm, = figures(README, r"at 60 FPS the car is up to ([\d.]+) cm off")
-    assert 100 * errors_m(60)["exact", "conserve"] == pytest.approx(late_cm, abs=0.05)
-    others_mm = [1000 * error_m for error_m in errors_m(960).values()][:3]
+    assert 100 * chart_errors_m(12, 60)["c"] == pytest.approx(late_cm, abs=0.05)
+    others_mm = [1000 * chart_errors_m(12, 960)[letter] for letter in "abc"]
     assert [min(others_mm), max(others_mm)] == pytest.approx([least_mm, most_mm], rel=0.02)
 
 # The cure, as printed.
